@@ -1,0 +1,7 @@
+#include <cstdio>
+
+#include "base/version.h"
+
+int main() {
+  std::printf("sfumato %s\n", sfumato::base::version());
+}

@@ -1,0 +1,29 @@
+// The whole frame in double precision on the CPU, by tracing rays: the oracle for the GPU's pictures.
+// It shares scene values with the GPU's passes, and no code.
+#pragma once
+
+#include <span>
+
+#include "image/image.h"
+#include "scene/scene.h"
+#include "volumes/grid.h"
+
+namespace sfumato::pipelines {
+
+struct ReferenceOptions {
+  int width = 64;
+  int height = 48;
+  int samples = 1;  // per pixel side: 1 looks through the pixel's centre, n through n x n subpixel centres
+  double stepVoxels = 0.5;  // of the camera's march, in voxels
+  double shadowStepVoxels = 0.5;
+  bool showProgress = false;
+};
+
+// Linear RGB radiance. Per pixel: all surfaces along the ray, sorted, each lit (Lambert and GGX as glTF has
+// them) and letting t = 1 - a (1 - tau b) through; between them single scattering in the media; for every lit
+// point a shadow ray to each light through all surfaces and media. No ambient light, no bounces; the
+// background is 0.
+image::Image renderReference(const scene::Scene& scene, const scene::Camera& camera,
+                             std::span<const volumes::Medium> media, const ReferenceOptions& options);
+
+}  // namespace sfumato::pipelines

@@ -1,0 +1,131 @@
+// A scene as plain values: what files give, what passes are fed from. World space is metres, right-handed, Y
+// up.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sfumato::scene {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Looks along -Z of its own space, Y up, as in glTF.
+struct Camera {
+  std::string name;
+  glm::dmat4 worldFromView{1.0};  // rotation and translation only
+  bool orthographic = false;
+  double yfov = 0.8;           // radians, perspective: full vertical angle, in (0, pi)
+  double yMagnitude = 1;       // metres, orthographic: half the height seen
+  double nearDistance = 0.01;  // metres, > 0 for perspective; what is nearer (surface or smoke) is not seen
+  double farDistance = infinity;  // metres, > nearDistance; what is farther is not seen
+};
+
+enum class LightType { Directional = 0, Point = 1, Spot = 2 };
+
+// KHR_lights_punctual with plain radiometric units (docs: no 683 lm/W factor).
+struct Light {
+  std::string name;
+  LightType type = LightType::Point;
+  glm::dvec3 position{0.0};        // world
+  glm::dvec3 direction{0, 0, -1};  // world, unit: where a directional or spot light shines to
+  glm::dvec3 intensity{1.0};       // colour * intensity: W/m^2 for directional, W/sr for point and spot
+  double range = infinity;         // metres; the window of KHR_lights_punctual applies where it is finite
+  double innerCone = 0;            // radians, spot: 0 <= inner < outer <= pi/2
+  double outerCone = 0.785398163397448;
+  bool castsShadow = true;
+};
+
+enum class Wrap { Repeat, ClampToEdge, MirroredRepeat };
+
+// 8-bit RGBA as stored in the file; the use says whether RGB is sRGB (base colour, emissive, specular
+// colour).
+struct Texture {
+  std::string name;
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> rgba;  // width * height * 4, rows from the top
+  Wrap wrapS = Wrap::Repeat;
+  Wrap wrapT = Wrap::Repeat;
+  bool nearest = false;  // magnification filter
+};
+
+struct TextureUse {
+  int texture = -1;  // index in Scene::textures, -1: none (reads as 1, or a flat normal)
+  int uvSet = 0;     // 0 or 1
+};
+
+enum class AlphaMode { Opaque, Mask, Blend };
+
+// glTF metallic-roughness with KHR_materials_specular and KHR_materials_transmission (thin).
+struct Material {
+  std::string name;
+  glm::vec4 baseColour{1.f};  // linear, alpha
+  TextureUse baseColourTexture;
+  float metallic = 1.f;
+  float roughness = 1.f;
+  TextureUse metallicRoughnessTexture;  // G roughness, B metallic
+  TextureUse normalTexture;
+  float normalScale = 1.f;
+  glm::vec3 emissive{0.f};
+  TextureUse emissiveTexture;
+  AlphaMode alphaMode = AlphaMode::Opaque;
+  float alphaCutoff = 0.5f;
+  bool doubleSided = false;
+  float transmission = 0.f;
+  TextureUse transmissionTexture;  // R
+  float specular = 1.f;
+  TextureUse specularTexture;  // A
+  glm::vec3 specularColour{1.f};
+  TextureUse specularColourTexture;
+
+  // Lets light through (BLEND or transmissive), so it lives in lists, not in the G-buffer.
+  bool translucent() const { return alphaMode == AlphaMode::Blend || transmission > 0.f; }
+};
+
+struct Vertex {
+  glm::vec3 position{0.f};
+  glm::vec3 normal{0.f, 0.f, 1.f};
+  glm::vec4 tangent{1.f, 0.f, 0.f, 1.f};  // w: handedness of the bitangent
+  glm::vec2 uv0{0.f};
+  glm::vec2 uv1{0.f};
+  glm::vec4 colour{1.f};
+};
+
+// One glTF primitive: indexed triangles of one material.
+struct Mesh {
+  std::string name;
+  std::vector<Vertex> vertices;
+  std::vector<uint32_t> indices;  // three for each triangle, each < vertices.size()
+  int material = 0;               // index in Scene::materials
+};
+
+struct Instance {
+  int mesh = 0;  // index in Scene::meshes
+  glm::dmat4 worldFromObject{1.0};
+};
+
+// Where a volume stands and what it is made of; the grid itself is read by the volumes room.
+struct VolumePlacement {
+  std::string file;                    // path, already relative to the working directory
+  std::string gridName;                // empty: the file's only float grid, or "density"
+  double scale = 1;                    // sigma_t per unit of density, 1/m, >= 0
+  glm::dvec3 albedo{0.9};              // each in [0, 1]
+  double g = 0;                        // Henyey-Greenstein, in (-1, 1)
+  glm::dmat4 worldFromGridWorld{1.0};  // the node's transform; the grid's own transform stands to its right
+};
+
+struct Scene {
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;
+  std::vector<VolumePlacement> volumes;
+};
+
+}  // namespace sfumato::scene

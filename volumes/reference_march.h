@@ -1,0 +1,30 @@
+// What a medium does to light, in double precision on the CPU: the oracle for the GPU's marches.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "volumes/grid.h"
+
+namespace sfumato::volumes {
+
+// Density at an index position: trilinear, 0 outside the grid's box.
+double densityAt(const DensityGrid& grid, const glm::dvec3& pIndex);
+
+// Extinction sigma_t at a world point, 1/m.
+double extinctionAt(const Medium& medium, const glm::dvec3& pWorld);
+
+// Where the ray p + t * direction, t in [tMin, tMax], is inside the medium's box. False when nowhere.
+bool clipToMedium(const Medium& medium, const glm::dvec3& pWorld, const glm::dvec3& direction, double& tMin,
+                  double& tMax);
+
+// Optical depth of the media between two world points, in steps of at most `stepVoxels` voxels of each
+// (midpoint rule).
+double opticalDepth(std::span<const Medium> media, const glm::dvec3& from, const glm::dvec3& to,
+                    double stepVoxels);
+
+// Henyey-Greenstein phase function, 1/sr; cosine of the angle between the directions of travel before and
+// after.
+double phaseHenyeyGreenstein(double cosine, double g);
+
+}  // namespace sfumato::volumes

@@ -1,0 +1,25 @@
+// OpenVDB files. This room's vdb_file.cpp is the one file that includes OpenVDB; built without it, both
+// functions throw Input and say so.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "volumes/grid.h"
+
+namespace sfumato::volumes {
+
+// Reads one float or half fog volume as a dense grid: active voxels and active tiles, the bounding box of
+// what is not zero plus a margin of one voxel, the linear transform of the file (rotated and sheared ones
+// too). `gridName` empty: "density", else the only float grid. Throws Input in one line: missing, truncated
+// or damaged file; no such grid (the line lists those there are, with their types); a level set, vector,
+// point or integer grid; a transform that is not linear (frustum); a background other than 0; a NaN, infinite
+// or negative density. Throws Memory when the dense box would take more than `maxBytes`.
+DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName,
+                    size_t maxBytes = size_t{4} << 30);
+
+// Writes the grid (values other than 0 are active) as a fog volume, beside `path` and then renamed.
+// Throws Input when it cannot be written.
+void writeVdb(const std::filesystem::path& path, const DensityGrid& grid);
+
+}  // namespace sfumato::volumes
