@@ -173,7 +173,7 @@ TEST(ReferenceMarch, OpticalDepthsAdd) {
   EXPECT_EQ(opticalDepth({}, {-9, 1, 1}, {19, 1, 1}, 0.5), 0);
 }
 
-// Simpson's rule over the cosine; the phase function is smooth, so that many intervals leave about 1e-11 at g = 0.95.
+// Simpson's rule over the cosine; so many intervals leave an error of about 1e-11 at g = 0.95.
 double integrateOverCosine(double g, bool timesCosine) {
   const int n = 400000;
   double sum = 0;
