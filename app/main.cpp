@@ -61,7 +61,7 @@ void addRender(CLI::App& command, app::RenderOptions& options, RenderText& text)
   command.add_option("scene", options.scene, "Scene to render: .gltf or .glb")->type_name("SCENE");
   command.add_option("--volume", options.volumes, "OpenVDB smoke to add to the scene; may be given again")
       ->type_name("SMOKE.vdb")
-      ->expected(1);
+      ->allow_extra_args(false);
   command.add_option("--grid", options.grid, "Grid to take from the volumes given by --volume");
   command.add_option("--volume-scale", options.volumeScale, "Their extinction per unit of density, 1/m")
       ->check(CLI::Range(0.0, 1e9));
@@ -74,7 +74,7 @@ void addRender(CLI::App& command, app::RenderOptions& options, RenderText& text)
       .add_option("-o,--output", options.outputs,
                   "Image to write: .exr linear, .png tone-mapped sRGB; may be given again")
       ->required()
-      ->expected(1)
+      ->allow_extra_args(false)
       ->type_name("OUT");
   command.add_option("--res", text.resolution, "Image size, e.g. 1280x720")
       ->check(resolutionValidator())

@@ -11,6 +11,7 @@
 #include "deepshadow/shadow_faces.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
+#include "gl/texture.h"
 #include "lists/lists_gpu.h"
 #include "scene/geometry_gpu.h"
 #include "scene/scene.h"
@@ -34,6 +35,7 @@ struct MapInputs {
 struct LightMap {
   int firstFace = -1;  // among all faces; -1: this light casts no shadow
   int faces = 0;
+  size_t firstTexel = 0;
   size_t texels = 0;
   size_t knots = 0;
   lists::ListStatistics lists;
@@ -58,6 +60,8 @@ class Maps {
   gl::Buffer faces_;
   gl::Buffer texels_;
   gl::Buffer knots_;
+  gl::BufferTexture texelsView_;
+  gl::BufferTexture knotsView_;
   size_t cutMarches_ = 0;
 };
 

@@ -69,7 +69,7 @@ FaceProjection perspectiveFace(const dvec3& forward, const dvec3& origin, double
 
 std::vector<FaceProjection> shadowFaces(const scene::Light& light, int resolution,
                                         std::span<const dvec3> receivers, std::span<const dvec3> casters) {
-  const int side = std::max(32, resolution / 2 * 2);
+  const int side = std::max(32, resolution / 16 * 16);
   if (light.type == scene::LightType::Directional)
     return {directionalFace(light.direction, side, receivers, casters)};
   if (light.type == scene::LightType::Spot && light.outerCone <= widestSpot)

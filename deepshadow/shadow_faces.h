@@ -17,7 +17,8 @@ struct FaceProjection {
   int side = 0;                // texels
 };
 
-// The faces of a light at `resolution` texels a side (a multiple of 2 is taken; at least 32):
+// The faces of a light at `resolution` texels a side (a multiple of 16 is taken, so that faces of cubes have
+// whole workgroups; at least 32):
 //  - directional: one orthographic face over `receivers` (world points whose hull holds everything that is
 //  seen), in
 //    front of `casters` (world points whose hull holds everything that casts shadows);

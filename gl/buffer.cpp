@@ -25,9 +25,9 @@ Object<deleteBuffer> createBuffer() {
 
 }  // namespace
 
-Buffer::Buffer(Device& device, std::string label, size_t bytes)
+Buffer::Buffer(Device& device, std::string label, size_t bytes, Whole whole)
     : ledger_(&device.memory()), label_(std::move(label)), bytes_(std::max<size_t>(bytes, 16)) {
-  if (bytes_ > static_cast<size_t>(device.limits().storageBlockBytes))
+  if (whole == Whole::Bound && bytes_ > static_cast<size_t>(device.limits().storageBlockBytes))
     fail(ExitCode::Memory,
          "{}: needs {:.1f} MiB, this device allows {:.1f} MiB in one buffer: lower the resolution", label_,
          static_cast<double>(bytes_) / 0x1p20,
@@ -85,6 +85,11 @@ void Buffer::read(std::span<std::byte> bytes, size_t offset) const {
 
 void Buffer::bindStorage(unsigned binding) const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name());
+}
+
+void Buffer::bindStorageRange(unsigned binding, size_t offset, size_t bytes) const {
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, name(), static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(bytes));
 }
 
 void Buffer::bindUniform(unsigned binding) const {

@@ -18,8 +18,10 @@ class Buffer {
   Buffer() = default;
   // `bytes` of undefined content (at least 16 are taken, so that an empty one can be bound). `label` names it
   // in the memory ledger and in errors. Throws Memory when the driver has no room or `bytes` is over the
-  // limit of one storage block.
-  Buffer(Device& device, std::string label, size_t bytes);
+  // limit of one storage block; `Whole::Never` bound as one block (only in ranges, or as a BufferTexture)
+  // lifts that limit.
+  enum class Whole { Bound, Never };
+  Buffer(Device& device, std::string label, size_t bytes, Whole whole = Whole::Bound);
   template <typename T>
   Buffer(Device& device, std::string label, std::span<const T> values)
       : Buffer(device, std::move(label), values.size_bytes()) {
@@ -54,6 +56,8 @@ class Buffer {
   }
 
   void bindStorage(unsigned binding) const;
+  // `offset` is a multiple of 256.
+  void bindStorageRange(unsigned binding, size_t offset, size_t bytes) const;
   void bindUniform(unsigned binding) const;
 
  private:

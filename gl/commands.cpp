@@ -42,7 +42,8 @@ void setDrawState(const DrawState& state) {
   setCull(state.cull);
   enable(GL_BLEND, state.blend == Blend::Minimum);
   glBlendEquation(GL_MIN);
-  glDisable(GL_SCISSOR_TEST);
+  enable(GL_SCISSOR_TEST, state.scissor.has_value());
+  if (state.scissor) glScissor(state.scissor->x, state.scissor->y, state.scissor->z, state.scissor->w);
   glDisable(GL_STENCIL_TEST);
 }
 
@@ -103,7 +104,8 @@ void dispatchLinear(const Program& program, size_t count) {
 }
 
 void storageBarrier() {
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 }  // namespace sfumato::gl

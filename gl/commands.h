@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "gl/buffer.h"
@@ -19,8 +20,9 @@ enum class Blend { None, Minimum };  // Minimum keeps the smaller of what is the
 struct DrawState {
   const Program* program = nullptr;
   const Framebuffer* target = nullptr;
-  glm::ivec4 viewport{0};  // x, y, width, height
-  bool depthTest = false;  // less; writes depth as well
+  glm::ivec4 viewport{0};             // x, y, width, height
+  std::optional<glm::ivec4> scissor;  // fragments outside x, y, width, height are not made
+  bool depthTest = false;             // less; writes depth as well
   bool depthClamp = false;
   Cull cull = Cull::None;
   Blend blend = Blend::None;
@@ -71,7 +73,8 @@ void dispatch(const Program& program, glm::uvec3 groups);
 // one is too short; shaders/shared/linear_id.glsl gives each its number.
 void dispatchLinear(const Program& program, size_t count);
 
-// What shaders wrote to storage buffers becomes visible to later shaders, copies and reads.
+// What shaders wrote to storage buffers becomes visible to later shaders (as blocks and as buffer textures),
+// copies and reads.
 void storageBarrier();
 
 // Workgroups of `groupSize` that cover `count`.

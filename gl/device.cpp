@@ -100,7 +100,7 @@ Limits readLimits() {
   limits.fragmentStorageBlocks = glInteger(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS);
   limits.texture2dSize = glInteger(GL_MAX_TEXTURE_SIZE);
   limits.texture3dSize = glInteger(GL_MAX_3D_TEXTURE_SIZE);
-  limits.textureLayers = glInteger(GL_MAX_ARRAY_TEXTURE_LAYERS);
+  limits.textureBufferTexels = glInteger<int64_t>(GL_MAX_TEXTURE_BUFFER_SIZE);
   limits.framebufferSize =
       std::min(glInteger(GL_MAX_FRAMEBUFFER_WIDTH), glInteger(GL_MAX_FRAMEBUFFER_HEIGHT));
   limits.samples = glInteger(GL_MAX_SAMPLES);

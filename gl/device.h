@@ -34,8 +34,8 @@ struct Limits {
   int fragmentStorageBlocks = 0;
   int texture2dSize = 0;
   int texture3dSize = 0;
-  int textureLayers = 0;
   int framebufferSize = 0;
+  int64_t textureBufferTexels = 0;
   int samples = 0;
   int timerBits = 0;
   bool clipControl = false;

@@ -133,6 +133,26 @@ std::vector<float> Texture::readFloats() const {
   return values;
 }
 
+BufferTexture::BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format) {
+  const size_t texelBytes = format == BufferFormat::RGBA32F ? 16 : 12;
+  const auto limit = static_cast<size_t>(device.limits().textureBufferTexels) * texelBytes;
+  if (buffer.bytes() > limit)
+    fail(ExitCode::Memory,
+         "{:.1f} MiB of shadow maps, this device reads {:.1f} MiB at once: lower --shadow-res",
+         static_cast<double>(buffer.bytes()) / 0x1p20, static_cast<double>(limit) / 0x1p20);
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  object_ = Object<deleteTexture>(name);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_BUFFER, name);
+  glTexBuffer(GL_TEXTURE_BUFFER, format == BufferFormat::RGBA32F ? GL_RGBA32F : GL_RGB32UI, buffer.name());
+}
+
+void BufferTexture::bind(unsigned unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_BUFFER, object_.name());
+}
+
 Framebuffer::Framebuffer(glm::ivec2 size) : size_(size) {
   GLuint name = 0;
   glGenFramebuffers(1, &name);

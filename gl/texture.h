@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/object.h"
 
@@ -16,6 +17,7 @@ void deleteTexture(unsigned name);
 void deleteFramebuffer(unsigned name);
 
 enum class Format { R32F, RGBA8, SRGB8A8, RGBA32UI, Depth32F };
+enum class BufferFormat { RGBA32F, RGB32UI };
 enum class Filter { Nearest, Linear, LinearMipmap };
 enum class Wrapping { Repeat, ClampToEdge, MirroredRepeat };
 
@@ -50,6 +52,19 @@ class Texture {
   size_t bytes_ = 0;
   unsigned target_ = 0;
   glm::ivec3 size_{0};
+};
+
+// A buffer seen as a row of texels: readable beyond the limit of one storage block. The buffer must outlive
+// it.
+class BufferTexture {
+ public:
+  BufferTexture() = default;
+  // Throws Memory when the buffer holds more texels than the device allows.
+  BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format);
+  void bind(unsigned unit) const;
+
+ private:
+  Object<deleteTexture> object_;
 };
 
 // What a draw writes to. Textures attached must outlive it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "gl/commands.h"
 #include "shaders/shared/bindings.h"
 
@@ -27,11 +28,39 @@ void Lists::allocateNodes(gl::Device& device, size_t nodes) {
   payloads_ = gl::Buffer(device, label_ + " payloads", (nodes + 1) * payloadBytes_);
 }
 
+ListStatistics& ListStatistics::operator+=(const ListStatistics& other) {
+  cells += other.cells;
+  demand += other.demand;
+  capacity = std::max(capacity, other.capacity);
+  overflowed += other.overflowed;
+  maxSpins = std::max(maxSpins, other.maxSpins);
+  windows += other.windows;
+  builds += other.builds;
+  bytes = std::max(bytes, other.bytes);
+  return *this;
+}
+
 ListStatistics Lists::build(gl::Device& device, const std::function<void()>& draw) {
-  ListStatistics statistics;
+  if (const auto statistics = tryBuild(device, cells_, draw)) return *statistics;
+  base::fail(base::ExitCode::Memory,
+             "{}: {} nodes take {:.1f} MiB, more than this device allows in one buffer: lower the resolution",
+             label_, unmetDemand_, static_cast<double>(unmetDemand_ * nodeBytes()) / 0x1p20);
+}
+
+std::optional<ListStatistics> Lists::tryBuild(gl::Device& device, size_t cells,
+                                              const std::function<void()>& draw) {
+  const size_t most =
+      static_cast<size_t>(device.limits().storageBlockBytes) / std::max(sizeof(ListLink), payloadBytes_) - 1;
+  ListStatistics statistics{.cells = cells, .windows = 1};
   ListCounters counters{};
   do {
-    if (counters.demand > capacity_) allocateNodes(device, counters.demand + counters.demand / 16);
+    if (counters.demand > most) {
+      unmetDemand_ = counters.demand;
+      return std::nullopt;
+    }
+    // A little more than now, so that the next window or frame fits as well.
+    if (counters.demand > capacity_)
+      allocateNodes(device, std::min<size_t>(counters.demand + counters.demand / 16, most));
     heads_.clear();
     counters_.clear();
     bindForBuilding();
@@ -47,7 +76,6 @@ ListStatistics Lists::build(gl::Device& device, const std::function<void()>& dra
     gl::storageBarrier();
     counters = counters_.readValue<ListCounters>();
   }
-  statistics.cells = cells_;
   statistics.demand = counters.demand;
   statistics.capacity = capacity_;
   statistics.overflowed = counters.overflowed;

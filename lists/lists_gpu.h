@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,12 @@ struct ListStatistics {
   size_t capacity = 0;    // nodes that the pool holds
   size_t overflowed = 0;  // nodes that took the fallback of a bounded spin
   size_t maxSpins = 0;    // most tries that one lock took
-  int builds = 0;         // 1, or more when the pool had to grow
-  size_t bytes = 0;       // heads, links and payloads
+  int windows = 0;        // parts that the cells were built in, one after the other
+  int builds = 0;         // as many, or more when the pool had to grow
+  size_t bytes = 0;       // heads, links and payloads: the most at one time
+
+  // The figures of two windows of the same lists together.
+  ListStatistics& operator+=(const ListStatistics& other);
 };
 
 class Lists {
@@ -32,7 +37,11 @@ class Lists {
 
   // Builds all lists: `draw` issues the draws and dispatches that insert; it is called again when the pool
   // had to grow. The lists are bound (STORAGE_LIST_*) while it runs.
+  // Throws Memory, and says how much it takes, when the device cannot hold them in one buffer.
   ListStatistics build(gl::Device& device, const std::function<void()>& draw);
+  // The same with only the first `cells`, but nothing where build() throws: the caller can try fewer cells at
+  // a time.
+  std::optional<ListStatistics> tryBuild(gl::Device& device, size_t cells, const std::function<void()>& draw);
 
   // Binds heads, links, payloads for readers at these storage bindings.
   void bind(unsigned heads, unsigned links, unsigned payloads) const;
@@ -45,11 +54,13 @@ class Lists {
 
  private:
   void allocateNodes(gl::Device& device, size_t nodes);
+  size_t nodeBytes() const { return sizeof(shared::ListLink) + payloadBytes_; }
 
   std::string label_;
   size_t cells_;
   size_t payloadBytes_;
   size_t capacity_ = 0;
+  size_t unmetDemand_ = 0;  // of the last build that failed
   gl::Buffer heads_;
   gl::Buffer links_;
   gl::Buffer payloads_;

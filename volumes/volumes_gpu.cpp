@@ -11,7 +11,7 @@
 namespace sfumato::volumes {
 namespace {
 
-constexpr size_t maxMedia = 6;  // texture units TEXTURE_VOLUMES to 15, of the 16 that every device has
+constexpr size_t maxMedia = 8;  // with five other textures in the resolve; every device has 16 a stage
 
 // Voxel (i,j,k) of the texture stands at (i + 0.5) / size.
 glm::dmat4 textureFromIndex(const DensityGrid& grid) {

@@ -21,7 +21,7 @@ const float DARK_TAU = 16.0;        // exp(-16) is nothing
 const float MAX_STEPS = 16384.0;
 
 void main() {
-  ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 texel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, view.size.w);
   if (texel.x >= view.size.x || texel.y >= view.size.y) return;
   uint cell = uint(view.size.z + texel.y * view.size.x + texel.x);
   vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;

@@ -40,11 +40,15 @@ layout(binding = TEXTURE_SURFACE_1) uniform usampler2D opaqueSurface1;
 const float FINISHED = 3e38;
 const uint LIGHT_WALK_LIMIT = 6000u;  // keeps one point's lighting below the drivers' loop limit
 
-// A pixel's ray: points are origin + depth * perDepth, in world space.
-vec3 rayOrigin;
-vec3 rayPerDepth;
-uint cell;
-uint work = 0u;
+// What a pixel looks along: points are origin + depth * perDepth, in world space.
+struct PixelRay {
+  vec3 origin;
+  vec3 perDepth;
+  vec3 towardsViewer;
+  uint cell;  // of the light lists
+};
+
+uint work = 0u;  // loop iterations of this invocation, about
 
 vec3 reflectedFrom(uint light, Surface surface, vec3 p, vec3 toViewer) {
   vec3 toLight;
@@ -58,18 +62,17 @@ vec3 reflectedFrom(uint light, Surface surface, vec3 p, vec3 toViewer) {
 }
 
 // Emitted and reflected radiance towards the viewer, lit by every light that reaches it.
-vec3 shadeSurface(Surface surface, float depth) {
-  vec3 p = rayOrigin + depth * rayPerDepth;
-  vec3 toViewer = -normalize(rayPerDepth);
+vec3 shadeSurface(Surface surface, PixelRay ray, float depth) {
+  vec3 p = ray.origin + depth * ray.perDepth;
   vec3 sum = surface.emissive;
   for (uint light = 0u; light < uint(params.options.z); ++light) {
-    sum += reflectedFrom(light, surface, p, toViewer);
+    sum += reflectedFrom(light, surface, p, ray.towardsViewer);
     work += 16u;
   }
   uint walked = 0u;
-  uint node = lightCellHeads[cell];
+  uint node = lightCellHeads[ray.cell];
   while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= depth) {
-    if (depth <= lightCellBacks[node]) sum += reflectedFrom(lightCellLinks[node].id, surface, p, toViewer);
+    if (depth <= lightCellBacks[node]) sum += reflectedFrom(lightCellLinks[node].id, surface, p, ray.towardsViewer);
     node = lightCellLinks[node].next;
     ++walked;
     work += 16u;
@@ -98,17 +101,17 @@ vec3 scatteredFrom(uint light, Scatterer scatterer, vec3 p, vec3 towardsViewer) 
   return turned * irradiance;
 }
 
-vec3 scattered(Scatterer scatterer, vec3 p, float depth) {
-  vec3 towardsViewer = -normalize(rayPerDepth);
+vec3 scattered(Scatterer scatterer, PixelRay ray, float depth) {
+  vec3 p = ray.origin + depth * ray.perDepth;
   vec3 sum = vec3(0.0);
   for (uint light = 0u; light < uint(params.options.z); ++light) {
-    sum += scatteredFrom(light, scatterer, p, towardsViewer);
+    sum += scatteredFrom(light, scatterer, p, ray.towardsViewer);
     work += 8u;
   }
   uint walked = 0u;
-  uint node = lightCellHeads[cell];
+  uint node = lightCellHeads[ray.cell];
   while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= depth) {
-    if (depth <= lightCellBacks[node]) sum += scatteredFrom(lightCellLinks[node].id, scatterer, p, towardsViewer);
+    if (depth <= lightCellBacks[node]) sum += scatteredFrom(lightCellLinks[node].id, scatterer, p, ray.towardsViewer);
     node = lightCellLinks[node].next;
     ++walked;
     work += 8u;
@@ -131,15 +134,17 @@ void main() {
 
   vec2 plane = ((vec2(pixel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
   bool orthographic = view.halfExtent.z != 0.0;
-  rayOrigin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
-  rayPerDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
-  cell = lightCell(pixel, view.size.x);
+  PixelRay ray;
+  ray.origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
+  ray.perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
+  ray.towardsViewer = -normalize(ray.perDepth);
+  ray.cell = lightCell(pixel, view.size.x);
   float opaque = texelFetch(opaqueDepth, pixel, 0).r;
   float rayEnd = min(opaque, view.depthRange.y);
 
 #ifdef SMOKE
-  float metresPerDepth = length(rayPerDepth);
-  MediaRay ray = mediaRay(rayOrigin, rayPerDepth, vec2(view.depthRange.x, rayEnd));
+  float metresPerDepth = length(ray.perDepth);
+  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd));
   float stride = params.march.x / metresPerDepth;
 #endif
 
@@ -150,20 +155,20 @@ void main() {
     if (node != 0u) nextSurface = surfaceLinks[node].depth;
     bool atSurface = true;
 #ifdef SMOKE
-    float from = max(depth, ray.rangeOfAll.x);
-    float limit = min(nextSurface, ray.rangeOfAll.y);
+    float from = max(depth, media.rangeOfAll.x);
+    float limit = min(nextSurface, media.rangeOfAll.y);
     if (from < limit) {
       // Steps stand at multiples of the stride from where the ray enters, cut at surfaces, so that adding a pane does
       // not move them.
-      float index = floor((from - ray.rangeOfAll.x) / stride + 1e-3);
-      float to = min(ray.rangeOfAll.x + (index + 1.0) * stride, limit);
+      float index = floor((from - media.rangeOfAll.x) / stride + 1e-3);
+      float to = min(media.rangeOfAll.x + (index + 1.0) * stride, limit);
       if (to <= from) to = min(from + stride, limit);
       if (to <= from) to = limit;  // a stride below the depth's rounding
       float middle = 0.5 * (from + to);
       Scatterer scatterer;
       float sigmaT = 0.0;
       for (int v = 0; v < VOLUME_COUNT; ++v) {
-        float sigma = extinctionOf(v, ray, middle);
+        float sigma = extinctionOf(v, media, middle);
         sigmaT += sigma;
         scatterer.sigmaS[v] = sigma * volumes[v].albedoScale.rgb;
       }
@@ -172,7 +177,7 @@ void main() {
         float passed = exp(-tau);
         // Integral of exp(-sigmaT s) over the step; its series where the difference would cancel.
         float length_ = tau > 1e-3 ? (1.0 - passed) / sigmaT : (tau / sigmaT) * (1.0 - 0.5 * tau);
-        radiance += throughput * length_ * scattered(scatterer, rayOrigin + middle * rayPerDepth, middle);
+        radiance += throughput * length_ * scattered(scatterer, ray, middle);
         throughput *= passed;
       }
       depth = to;
@@ -180,17 +185,17 @@ void main() {
     }
 #endif
     if (atSurface && node != 0u) {
-      PackedSurface packed = surfaceNodes[node];
-      radiance += throughput * shadeSurface(unpackSurface(packed), nextSurface);
-      throughput *= surfacePass(packed);
+      PackedSurface stored = surfaceNodes[node];
+      radiance += throughput * shadeSurface(unpackSurface(stored), ray, nextSurface);
+      throughput *= surfacePass(stored);
       depth = max(depth, nextSurface);
       node = surfaceLinks[node].next;
     } else if (atSurface) {
       if (opaque < view.depthRange.y) {
         uvec4 a = texelFetch(opaqueSurface0, pixel, 0);
         uvec4 b = texelFetch(opaqueSurface1, pixel, 0);
-        PackedSurface packed = PackedSurface(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, 0u);
-        radiance += throughput * shadeSurface(unpackSurface(packed), opaque);
+        PackedSurface stored = PackedSurface(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, 0u);
+        radiance += throughput * shadeSurface(unpackSurface(stored), ray, opaque);
       }
       walking = false;
     }

@@ -19,8 +19,8 @@
 #define STORAGE_LIGHT_CELL_LINKS 8
 #define STORAGE_LIGHT_CELL_PAYLOADS 9
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
-#define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[]
-#define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[]
+#define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
+#define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
 #define STORAGE_VOLUMES 13        // VolumeData[]
 #define STORAGE_PIXELS 14         // PixelState[]
 #define STORAGE_COUNTERS 15       // the pass's own counters
@@ -36,4 +36,6 @@
 #define TEXTURE_OPAQUE_DEPTH 7
 #define TEXTURE_SURFACE_0 8
 #define TEXTURE_SURFACE_1 9
-#define TEXTURE_VOLUMES 10  // and the units after it
+#define TEXTURE_SHADOW_TEXELS 10
+#define TEXTURE_SHADOW_KNOTS 11
+#define TEXTURE_VOLUMES 12  // and the units after it

@@ -23,5 +23,9 @@ SHARED_END
 #define LIST_LOCKED 0xffffffffu
 // Tries for a lock, and nodes walked under it, before a node goes to the overflow list. Together they keep an
 // insertion far below the 65,535 loop iterations at which some drivers end every loop silently.
+#ifndef LIST_SPIN_LIMIT
 #define LIST_SPIN_LIMIT 2048
+#endif
+#ifndef LIST_WALK_LIMIT
 #define LIST_WALK_LIMIT 16384
+#endif

@@ -9,7 +9,8 @@ struct ViewParams {
   mat4 clipFromView;
   vec4 halfExtent;   // xy: of the image at depth 1 (perspective) or anywhere (orthographic), m; z: 1 for orthographic
   vec4 depthRange;   // x: near, y: far (3e38 for none)
-  ivec4 size;        // x, y: width, height in pixels or texels; z: cell of the first one in the lists that are built
+  ivec4 size;        // x, y: width, height in pixels or texels; z: what to add for their number in the lists or
+              // runs that are written; w: first row that a compute pass works on
 };
 
 SHARED_END

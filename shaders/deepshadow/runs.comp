@@ -2,11 +2,16 @@
 // binary search and no walk. A texel an invocation; knots are counted, then taken from the pool, then written.
 #include "shaders/deepshadow/node.glsl"
 #include "shaders/shared/linear_id.glsl"
+#include "shaders/shared/view.h"
 
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ShadowPassParams params;
 };
-layout(std430, binding = STORAGE_SHADOW_TEXELS) buffer Texels {
+layout(std140, binding = UNIFORM_VIEW) uniform View {
+  ViewParams view;
+};
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+layout(std430, binding = STORAGE_SHADOW_TEXELS) writeonly buffer Texels {
   ShadowTexel texels[];
 };
 layout(std430, binding = STORAGE_SHADOW_KNOTS) writeonly buffer Knots {
@@ -70,7 +75,6 @@ void main() {
   uint count = writeKnots(head, 0xffffffffu);
   uint first = count != 0u ? atomicAdd(counters.knots, count) : 0u;
   if (count != 0u && first + count <= uint(knots.length())) writeKnots(head, first);
-  uint texel = uint(params.range.x) + cell;
-  texels[texel].first = first;
-  texels[texel].count = count;
+  ivec2 place = ivec2(int(cell) % view.size.x, view.size.w + int(cell) / view.size.x);
+  texels[cell] = ShadowTexel(uint(params.range.x) + first, count, texelFetch(opaqueDepth, place, 0).r);
 }
