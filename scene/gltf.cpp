@@ -141,14 +141,15 @@ const Value* find(const tinygltf::ExtensionMap& extensions, const char* name) {
 
 // What tinygltf's file callbacks share.
 struct ExternalFiles {
+  std::string folder;  // of the glTF file
   uint64_t bytes = 0;
   std::string fault;  // the first one, as a whole line
 };
 
 // tinygltf takes + in a uri for a space, as only forms do.
-fs::path withPlusForMissing(const std::string& name) {
+fs::path withPlusForMissing(const std::string& name, const std::string& folder) {
   std::string plus = name;
-  std::replace(plus.begin(), plus.end(), ' ', '+');
+  std::replace(plus.begin() + static_cast<long>(folder.size()), plus.end(), ' ', '+');
   std::error_code ignored;
   return !fs::exists(name, ignored) && fs::exists(plus, ignored) ? plus : name;
 }
@@ -156,7 +157,7 @@ fs::path withPlusForMissing(const std::string& name) {
 bool readExternalFile(std::vector<unsigned char>* out, std::string*, const std::string& name, void* data) {
   auto& files = *static_cast<ExternalFiles*>(data);
   try {
-    const fs::path path = withPlusForMissing(name);
+    const fs::path path = withPlusForMissing(name, files.folder);
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error))
       base::fail(ExitCode::Input, "{}: is not a regular file", path.string());
@@ -214,6 +215,7 @@ Model parse(const fs::path& path, const Faults& faults) {
   checkGltfJson(json, faults.path());
 
   ExternalFiles files;
+  files.folder = path.parent_path().string();
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keepEncoded, nullptr);
   loader.SetFsCallbacks({[](const std::string&, void*) { return true; },
@@ -221,13 +223,13 @@ Model parse(const fs::path& path, const Faults& faults) {
                          &files});
   Model model;
   std::string error, warning;
-  const std::string folder = path.parent_path().string();
   const auto size = static_cast<unsigned>(file.size());
   const bool loaded =
       file.starts_with(binaryMagic)
           ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                        reinterpret_cast<const unsigned char*>(file.data()), size, folder)
-          : loader.LoadASCIIFromString(&model, &error, &warning, file.data(), size, folder);
+                                        reinterpret_cast<const unsigned char*>(file.data()), size,
+                                        files.folder)
+          : loader.LoadASCIIFromString(&model, &error, &warning, file.data(), size, files.folder);
   if (!files.fault.empty()) faults.fail("{}: put it there or export again", printable(files.fault, 300));
   if (!loaded) {
     const std::string reason = printable(error.empty() ? warning : error, 300);
