@@ -71,11 +71,21 @@ class Faults {
   // For factors that exporters round: what is a hair outside [0, 1] is clamped.
   float fraction(double value, const std::string& where, const char* what) const {
     constexpr double rounding = 1e-4;
-    return static_cast<float>(std::clamp(inRange(value, -rounding, 1 + rounding, where, what), 0.0, 1.0));
+    const double clamped = std::clamp(value, 0.0, 1.0);
+    return static_cast<float>(std::abs(value - clamped) < rounding ? clamped
+                                                                   : inRange(value, 0, 1, where, what));
+  }
+
+  // What single precision holds.
+  double finite(double value, const std::string& where, const char* what) const {
+    if (!(std::abs(value) <= std::numeric_limits<float>::max()))
+      fail("{}: {} is {}: give a smaller value", where, what, value);
+    return value;
   }
 
   double notNegative(double value, const std::string& where, const char* what) const {
-    return inRange(value, 0, std::numeric_limits<float>::max(), where, what);
+    if (value < 0) fail("{}: {} is {}: give 0 or more", where, what, value);
+    return finite(value, where, what);
   }
 
   void warnOnce(const std::string& line) {
@@ -449,9 +459,7 @@ class Materials {
     to.roughness = faults_.fraction(pbr.roughnessFactor, where, "roughnessFactor");
     to.metallicRoughnessTexture = use(pbr.metallicRoughnessTexture, where);
     to.normalTexture = use(from.normalTexture, where);
-    constexpr double largest = std::numeric_limits<float>::max();
-    to.normalScale = static_cast<float>(
-        faults_.inRange(from.normalTexture.scale, -largest, largest, where, "the normal texture's scale"));
+    to.normalScale = static_cast<float>(faults_.finite(from.normalTexture.scale, where, "normal scale"));
     to.emissiveTexture = use(from.emissiveTexture, where);
     to.alphaMode = alphaMode(from.alphaMode, where);
     to.alphaCutoff = static_cast<float>(faults_.notNegative(from.alphaCutoff, where, "alphaCutoff"));
@@ -500,7 +508,7 @@ class Materials {
     if (const Value* extension = find(from.extensions, "KHR_materials_ior")) {
       // The specular colour scales the 0.04 that an index of 1.5 reflects; 0 stands for an infinite index.
       const double ior = number(faults_, *extension, "ior", 1.5, where);
-      if (ior != 0) faults_.inRange(ior, 1, std::numeric_limits<float>::max(), where, "ior");
+      if (ior != 0 && !(ior >= 1)) faults_.fail("{}: ior is {}: give 1 or more, or 0", where, ior);
       const double f0 = ior == 0 ? 1 : std::pow((ior - 1) / (ior + 1), 2);
       to.specularColour *= static_cast<float>(f0 / 0.04);
     }
@@ -658,6 +666,7 @@ class Meshes {
     mesh.material = materials_.indexOf(primitive.material, where);
     readPositions(primitive, mesh, where);
     readTriangles(primitive, mesh, where);
+    if (mesh.indices.empty()) return std::nullopt;
     const auto assign = [&](const char* name, int components, auto set) {
       return readAttribute(primitive, name, components, mesh, set, where);
     };
