@@ -113,6 +113,20 @@ const char* pictureFormat(std::span<const std::byte> bytes) {
   return nullptr;
 }
 
+// Whether a PNG's chunks follow each other up to the last one. A cut file stops here, without the lines that
+// libpng would print.
+bool pngIsWhole(std::span<const std::byte> bytes) {
+  constexpr size_t signature = 8, frame = 12;  // a chunk's length, type and checksum
+  for (size_t at = signature; bytes.size() - at >= frame;) {
+    size_t length = 0;
+    for (size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<size_t>(bytes[at + i]);
+    if (length > bytes.size() - at - frame) return false;
+    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return true;
+    at += frame + length;
+  }
+  return false;
+}
+
 }  // namespace
 
 Image readImage(const fs::path& path) {
@@ -135,7 +149,7 @@ Image readImage(const fs::path& path) {
 
   Image image(spec.width, spec.height, spec.nchannels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()))
-    fail(ExitCode::Input, "{}: is damaged: {}", path.string(), oneLine(input->geterror()));
+    fail(ExitCode::Input, "{}: is damaged: {}: write it again", path.string(), oneLine(input->geterror()));
   return image;
 }
 
@@ -153,7 +167,9 @@ void checkImageName(const fs::path& path) {
 
 Picture decodePicture(std::span<const std::byte> bytes, const std::string& name) {
   const char* format = pictureFormat(bytes);
-  if (!format) fail(ExitCode::Input, "{}: is not a PNG or JPEG picture", name);
+  if (!format) fail(ExitCode::Input, "{}: is not a PNG or JPEG picture: convert it", name);
+  if (std::strcmp(format, "png") == 0 && !pngIsWhole(bytes))
+    fail(ExitCode::Input, "{}: is a PNG picture that is cut off: write it again", name);
   OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
   OIIO::Filesystem::IOProxy* source = &memory;
   OIIO::ImageSpec hints = readAsStored();
@@ -162,17 +178,18 @@ Picture decodePicture(std::span<const std::byte> bytes, const std::string& name)
   if (!input) fail(ExitCode::Input, "{}: cannot be decoded: {}", name, oneLine(OIIO::geterror()));
   OIIO::ImageSpec spec;
   if (!input->open(format, spec, hints))
-    fail(ExitCode::Input, "{}: is a damaged picture: {}", name, oneLine(input->geterror()));
+    fail(ExitCode::Input, "{}: is a damaged picture: {}: write it again", name, oneLine(input->geterror()));
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels < 1 || spec.nchannels > 4)
-    fail(ExitCode::Input, "{}: is a picture without pixels or with more than 4 channels", name);
+    fail(ExitCode::Input, "{}: is a picture without pixels or with more than 4 channels: convert it", name);
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
   if (spec.width > maxPictureSide || spec.height > maxPictureSide || pixels / maxPixelsPerByte > bytes.size())
     fail(ExitCode::Input, "{}: {} x {} pixels are too many: at most {} on a side, and no more than it holds",
          name, spec.width, spec.height, maxPictureSide);
 
   std::vector<uint8_t> stored(pixels * static_cast<uint64_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, stored.data()))
-    fail(ExitCode::Input, "{}: is a damaged picture: {}", name, oneLine(input->geterror()));
+  const bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, stored.data());
+  if (!read || input->has_error())  // a cut JPEG is read in grey, and only noted
+    fail(ExitCode::Input, "{}: is a damaged picture: {}: write it again", name, oneLine(input->geterror()));
   return {spec.width, spec.height, expandToRgba(stored, spec.nchannels)};
 }
 

@@ -71,11 +71,21 @@ class Faults {
   // For factors that exporters round: what is a hair outside [0, 1] is clamped.
   float fraction(double value, const std::string& where, const char* what) const {
     constexpr double rounding = 1e-4;
-    return static_cast<float>(std::clamp(inRange(value, -rounding, 1 + rounding, where, what), 0.0, 1.0));
+    const double clamped = std::clamp(value, 0.0, 1.0);
+    return static_cast<float>(std::abs(value - clamped) < rounding ? clamped
+                                                                   : inRange(value, 0, 1, where, what));
+  }
+
+  // What single precision holds.
+  double finite(double value, const std::string& where, const char* what) const {
+    if (!(std::abs(value) <= std::numeric_limits<float>::max()))
+      fail("{}: {} is {}: give a smaller value", where, what, value);
+    return value;
   }
 
   double notNegative(double value, const std::string& where, const char* what) const {
-    return inRange(value, 0, std::numeric_limits<float>::max(), where, what);
+    if (value < 0) fail("{}: {} is {}: give 0 or more", where, what, value);
+    return finite(value, where, what);
   }
 
   void warnOnce(const std::string& line) {
@@ -141,14 +151,15 @@ const Value* find(const tinygltf::ExtensionMap& extensions, const char* name) {
 
 // What tinygltf's file callbacks share.
 struct ExternalFiles {
+  std::string folder;  // of the glTF file
   uint64_t bytes = 0;
   std::string fault;  // the first one, as a whole line
 };
 
 // tinygltf takes + in a uri for a space, as only forms do.
-fs::path withPlusForMissing(const std::string& name) {
+fs::path withPlusForMissing(const std::string& name, const std::string& folder) {
   std::string plus = name;
-  std::replace(plus.begin(), plus.end(), ' ', '+');
+  std::replace(plus.begin() + static_cast<long>(folder.size()), plus.end(), ' ', '+');
   std::error_code ignored;
   return !fs::exists(name, ignored) && fs::exists(plus, ignored) ? plus : name;
 }
@@ -156,7 +167,7 @@ fs::path withPlusForMissing(const std::string& name) {
 bool readExternalFile(std::vector<unsigned char>* out, std::string*, const std::string& name, void* data) {
   auto& files = *static_cast<ExternalFiles*>(data);
   try {
-    const fs::path path = withPlusForMissing(name);
+    const fs::path path = withPlusForMissing(name, files.folder);
     std::error_code error;
     if (fs::exists(path, error) && !fs::is_regular_file(path, error))
       base::fail(ExitCode::Input, "{}: is not a regular file", path.string());
@@ -214,6 +225,7 @@ Model parse(const fs::path& path, const Faults& faults) {
   checkGltfJson(json, faults.path());
 
   ExternalFiles files;
+  files.folder = path.parent_path().string();
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keepEncoded, nullptr);
   loader.SetFsCallbacks({[](const std::string&, void*) { return true; },
@@ -221,13 +233,13 @@ Model parse(const fs::path& path, const Faults& faults) {
                          &files});
   Model model;
   std::string error, warning;
-  const std::string folder = path.parent_path().string();
   const auto size = static_cast<unsigned>(file.size());
   const bool loaded =
       file.starts_with(binaryMagic)
           ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                        reinterpret_cast<const unsigned char*>(file.data()), size, folder)
-          : loader.LoadASCIIFromString(&model, &error, &warning, file.data(), size, folder);
+                                        reinterpret_cast<const unsigned char*>(file.data()), size,
+                                        files.folder)
+          : loader.LoadASCIIFromString(&model, &error, &warning, file.data(), size, files.folder);
   if (!files.fault.empty()) faults.fail("{}: put it there or export again", printable(files.fault, 300));
   if (!loaded) {
     const std::string reason = printable(error.empty() ? warning : error, 300);
@@ -447,9 +459,7 @@ class Materials {
     to.roughness = faults_.fraction(pbr.roughnessFactor, where, "roughnessFactor");
     to.metallicRoughnessTexture = use(pbr.metallicRoughnessTexture, where);
     to.normalTexture = use(from.normalTexture, where);
-    constexpr double largest = std::numeric_limits<float>::max();
-    to.normalScale = static_cast<float>(
-        faults_.inRange(from.normalTexture.scale, -largest, largest, where, "the normal texture's scale"));
+    to.normalScale = static_cast<float>(faults_.finite(from.normalTexture.scale, where, "normal scale"));
     to.emissiveTexture = use(from.emissiveTexture, where);
     to.alphaMode = alphaMode(from.alphaMode, where);
     to.alphaCutoff = static_cast<float>(faults_.notNegative(from.alphaCutoff, where, "alphaCutoff"));
@@ -498,7 +508,7 @@ class Materials {
     if (const Value* extension = find(from.extensions, "KHR_materials_ior")) {
       // The specular colour scales the 0.04 that an index of 1.5 reflects; 0 stands for an infinite index.
       const double ior = number(faults_, *extension, "ior", 1.5, where);
-      if (ior != 0) faults_.inRange(ior, 1, std::numeric_limits<float>::max(), where, "ior");
+      if (ior != 0 && !(ior >= 1)) faults_.fail("{}: ior is {}: give 1 or more, or 0", where, ior);
       const double f0 = ior == 0 ? 1 : std::pow((ior - 1) / (ior + 1), 2);
       to.specularColour *= static_cast<float>(f0 / 0.04);
     }
@@ -656,6 +666,7 @@ class Meshes {
     mesh.material = materials_.indexOf(primitive.material, where);
     readPositions(primitive, mesh, where);
     readTriangles(primitive, mesh, where);
+    if (mesh.indices.empty()) return std::nullopt;
     const auto assign = [&](const char* name, int components, auto set) {
       return readAttribute(primitive, name, components, mesh, set, where);
     };
