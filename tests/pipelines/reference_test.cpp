@@ -332,6 +332,26 @@ TEST(Reference, LightFromBehindTheSeenSideDoesNothing) {
   expectEverywhere(render(known), glm::dvec3(0), 0);
 }
 
+// A shading normal that leans over to a light below the horizon of the triangle gathers nothing from it.
+TEST(Reference, LightBelowTheTrianglesHorizonDoesNothing) {
+  KnownScene known = tests::veilsOverWall();
+  known.scene.instances.resize(1);
+  for (scene::Vertex& vertex : known.scene.meshes[0].vertices) vertex.normal = {0.8f, 0, 0.6f};
+  known.scene.lights = {tests::directionalLight({-0.8, 0, 0.6}, {3, 3, 3})};
+  known.scene.lights[0].castsShadow = false;
+  expectEverywhere(render(known), glm::dvec3(0), 0);
+  known.scene.lights[0].direction = {-0.8, 0, -0.6};
+  expectEverywhere(render(known), glm::dvec3(0.5 * 3 / pi), storedAsFloat);
+}
+
+TEST(Reference, WhatIsBehindALightShadowsNothingOfIt) {
+  KnownScene known = tests::planeUnderPointLight();  // the light at y = 2, the camera at 3
+  const image::Image expected = render(known);
+  tests::add(known.scene, tests::quad({-4, 4, 4}, {8, 0, 0}, {0, 0, -8}), tests::lambert({1, 1, 1}));
+  known.media = {tests::block({-4, 4, -4}, {4, 5, 4}, {4, 4, 4}, 5, {1, 1, 1}, 0)};
+  EXPECT_EQ(render(known).values, expected.values);
+}
+
 TEST(Reference, WhatIsNearerOrFartherIsNotSeen) {
   KnownScene known = tests::paneBeforeSmoke();
   scene::Camera& camera = known.scene.cameras[0];  // at z = 2, the pane at 1, the block from 0.5 to -0.5
@@ -356,6 +376,9 @@ TEST(Reference, PerspectiveDistancesAreDepths) {
   known.scene.cameras[0].farDistance = 3.001;
   EXPECT_EQ(render(known).values, expected.values);
   known.scene.cameras[0].farDistance = 2.9995;
+  expectEverywhere(render(known), glm::dvec3(0), 0);
+  known.scene.cameras[0].nearDistance = 3.0005;
+  known.scene.cameras[0].farDistance = scene::infinity;
   expectEverywhere(render(known), glm::dvec3(0), 0);
 }
 
