@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -243,9 +245,10 @@ class Tracer {
     for (const Medium* medium : media) voxel = std::min(voxel, volumes::voxelSize(medium->worldFromIndex));
     const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * voxel));
     const double length = (tMax - tMin) / steps;
+    std::vector<double> extinctions;  // of each medium
     for (double step = 0; step < steps && !isNegligible(transmittance); ++step) {
       const glm::dvec3 p = ray.at(tMin + (step + 0.5) * length);
-      std::vector<double> extinctions;
+      extinctions.clear();
       double extinction = 0;
       for (const Medium* medium : media) {
         extinctions.push_back(volumes::extinctionAt(*medium, p));
