@@ -1,0 +1,233 @@
+#include "volumes/vdb_file.h"
+
+#include "base/error.h"
+
+#ifdef SFUMATO_OPENVDB
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <new>
+#include <streambuf>
+
+#include "base/file.h"
+#include "volumes/vdb_layout.h"
+
+namespace sfumato::volumes {
+namespace {
+
+using base::ExitCode;
+using base::fail;
+
+// For a name from a file in an error line: no control characters, not endless.
+std::string shown(const std::string& name) {
+  constexpr size_t longest = 64;
+  std::string text = name.substr(0, longest);
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
+  return name.size() > longest ? text + "..." : text;
+}
+
+std::string listGrids(const VdbDirectory& directory) {
+  constexpr size_t most = 16;
+  if (directory.entries.empty()) return "no grid at all";
+  std::string list;
+  for (const VdbEntry& entry : directory.entries) {
+    if (&entry == &directory.entries[0] + most) return list + ", ...";
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", shown(entry.shownName), shown(entry.type));
+  }
+  return list;
+}
+
+// The float grid of that name; without a name "density", else the only float grid.
+const VdbEntry& chooseGrid(const VdbDirectory& directory, const std::string& path,
+                           const std::string& gridName) {
+  std::vector<const VdbEntry*> floats, named;
+  for (const VdbEntry& entry : directory.entries) {
+    if (entry.type != "float") continue;
+    floats.push_back(&entry);
+    const bool matches =
+        gridName.empty() ? entry.name == "density" : entry.name == gridName || entry.shownName == gridName;
+    if (matches) named.push_back(&entry);
+  }
+  if (gridName.empty() && named.empty() && floats.size() == 1) named = floats;
+  const std::string wanted = shown(gridName.empty() ? "density" : gridName);
+  if (named.empty())
+    fail(ExitCode::Input, "{}: no float grid \"{}\" (has: {}): {}", path, wanted, listGrids(directory),
+         floats.empty() ? "export one of floats" : "choose one with --grid NAME");
+  if (named.size() > 1)
+    fail(ExitCode::Input, "{}: {} grids are called \"{}\": choose one with --grid \"{}\"", path, named.size(),
+         wanted, shown(named[0]->shownName));
+  return *named[0];
+}
+
+// Reads from memory, for OpenVDB's streams.
+class MemoryBuffer : public std::streambuf {
+ public:
+  explicit MemoryBuffer(std::span<const std::byte> bytes) {
+    // A streambuf wants char*, but a get area is only read.
+    char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
+    setg(begin, begin, begin + bytes.size());
+  }
+};
+
+void readTree(openvdb::FloatTree& tree, std::span<const std::byte> file, const VdbDirectory& directory,
+              const VdbGridLayout& layout) {
+  MemoryBuffer buffer(file.subspan(layout.treeBegin, layout.treeEnd - layout.treeBegin));
+  std::istream stream(&buffer);
+  stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+  openvdb::io::setVersion(stream, {directory.libraryMajor, directory.libraryMinor}, directory.formatVersion);
+  openvdb::io::setDataCompression(stream, layout.compression);
+  tree.readTopology(stream, layout.half);
+  tree.readBuffers(stream, layout.half);
+}
+
+// A box of voxels that grows; 64-bit, as active tiles can make it huge.
+struct Box {
+  glm::i64vec3 low{std::numeric_limits<int64_t>::max()};
+  glm::i64vec3 high{std::numeric_limits<int64_t>::min()};
+
+  void add(const openvdb::CoordBBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min<int64_t>(low[axis], box.min()[axis]);
+      high[axis] = std::max<int64_t>(high[axis], box.max()[axis]);
+    }
+  }
+  bool empty() const { return high.x < low.x; }
+};
+
+// The box of all active values other than 0. Throws Input for a value that is no density.
+Box checkedBox(const openvdb::FloatTree& tree, const std::string& place) {
+  Box box;
+  for (auto value = tree.cbeginValueOn(); value; ++value) {
+    const float density = *value;
+    if (!std::isfinite(density) || density < 0) {
+      const openvdb::Coord at = value.getCoord();
+      fail(ExitCode::Input, "{} has the density {} at voxel ({}, {}, {}): give finite densities of 0 or more",
+           place, density, at.x(), at.y(), at.z());
+    }
+    if (density != 0) box.add(value.getBoundingBox());
+  }
+  if (box.empty()) fail(ExitCode::Input, "{} is empty: give one with an active density above 0", place);
+  return box;
+}
+
+void fill(DensityGrid& grid, const openvdb::CoordBBox& box, float density) {
+  const openvdb::Coord low = box.min(), high = box.max();
+  const auto count = static_cast<size_t>(high.x() - low.x() + 1);
+  for (int z = low.z(); z <= high.z(); ++z)
+    for (int y = low.y(); y <= high.y(); ++y) {
+      const size_t first = grid.valueIndex(low.x() - grid.origin.x, y - grid.origin.y, z - grid.origin.z);
+      std::fill_n(grid.values.begin() + static_cast<std::ptrdiff_t>(first), count, density);
+    }
+}
+
+DensityGrid toDense(const openvdb::FloatTree& tree, const std::string& place, size_t maxBytes) {
+  const Box box = checkedBox(tree, place);
+  const glm::i64vec3 size = box.high - box.low + int64_t{3};  // with the margin
+  const double bytes =
+      static_cast<double>(size.x) * static_cast<double>(size.y) * static_cast<double>(size.z) * sizeof(float);
+  if (bytes > static_cast<double>(maxBytes))
+    fail(ExitCode::Memory,
+         "{} takes {:.1f} MiB as a dense box of {} x {} x {} voxels, more than the {:.1f} "
+         "MiB allowed: crop it, or resample it to larger voxels",
+         place, bytes / 0x1p20, size.x, size.y, size.z, static_cast<double>(maxBytes) / 0x1p20);
+
+  DensityGrid grid;
+  grid.origin = glm::ivec3(box.low - int64_t{1});
+  grid.size = glm::ivec3(size);
+  grid.values.assign(static_cast<size_t>(size.x * size.y * size.z), 0.f);
+  for (auto value = tree.cbeginValueOn(); value; ++value)
+    if (*value != 0) fill(grid, value.getBoundingBox(), *value);
+  return grid;
+}
+
+openvdb::Mat4d rowVectorMatrix(const glm::dmat4& matrix) {
+  openvdb::Mat4d result;
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row) result[column][row] = matrix[column][row];
+  return result;
+}
+
+}  // namespace
+
+DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes) {
+  const std::vector<std::byte> file = base::readFile(path);
+  const VdbDirectory directory = readVdbDirectory(file, path.string());
+  const VdbEntry& entry = chooseGrid(directory, path.string(), gridName);
+  const std::string place = fmt::format("{}: grid \"{}\"", path.string(), shown(entry.shownName));
+  const VdbGridLayout layout = layOutVdbGrid(file, path.string(), directory, entry);
+  if (layout.gridClass == "level set")
+    fail(ExitCode::Input, "{} is a level set, which has distances, not densities: convert it to a fog volume",
+         place);
+  if (layout.treeBytes > maxBytes)
+    fail(ExitCode::Memory,
+         "{} takes {:.1f} MiB in memory, more than the {:.1f} MiB allowed: crop it, or "
+         "resample it to larger voxels",
+         place, static_cast<double>(layout.treeBytes) / 0x1p20, static_cast<double>(maxBytes) / 0x1p20);
+
+  openvdb::initialize();
+  openvdb::FloatTree tree(0.f);
+  try {
+    readTree(tree, file, directory, layout);
+  } catch (const std::bad_alloc&) {
+    fail(ExitCode::Memory, "{} does not fit in memory: crop it, or resample it to larger voxels", place);
+  } catch (const std::exception& error) {
+    fail(ExitCode::Input, "{} is damaged ({}): copy or export it again", place, shown(error.what()));
+  }
+  if (tree.background() != 0)
+    fail(ExitCode::Input, "{} has the background {}, so it has no end: give a fog volume of background 0",
+         place, tree.background());
+
+  DensityGrid grid = toDense(tree, place, maxBytes);
+  grid.name = entry.name;
+  grid.worldFromIndex = layout.worldFromIndex;
+  return grid;
+}
+
+void writeVdb(const std::filesystem::path& path, const DensityGrid& grid) {
+  openvdb::initialize();
+  const auto vdb = openvdb::FloatGrid::create(0.f);
+  vdb->setName(grid.name);
+  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
+  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
+  const openvdb::Coord origin(grid.origin.x, grid.origin.y, grid.origin.z);
+  const openvdb::Coord size(grid.size.x, grid.size.y, grid.size.z);
+  // Dense wants to be able to write, but copyFromDense only reads.
+  const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
+      openvdb::CoordBBox(origin, origin + size.offsetBy(-1)), const_cast<float*>(grid.values.data()));
+  openvdb::tools::copyFromDense(dense, *vdb, 0.f);
+
+  base::PendingFile pending(path);
+  try {
+    openvdb::io::File(pending.temporary().string()).write({vdb});
+    // OpenVDB does not say when the disk is full, so the file is looked through.
+    const std::vector<std::byte> file = base::readFile(pending.temporary());
+    const VdbDirectory directory = readVdbDirectory(file, path.string());
+    layOutVdbGrid(file, path.string(), directory, directory.entries.at(0));
+  } catch (const std::exception& error) {
+    fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), shown(error.what()));
+  }
+  pending.rename();
+}
+
+}  // namespace sfumato::volumes
+
+#else
+
+namespace sfumato::volumes {
+
+DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_t) {
+  base::fail(base::ExitCode::Input, "{}: cannot be read: this build has no OpenVDB", path.string());
+}
+
+void writeVdb(const std::filesystem::path& path, const DensityGrid&) {
+  base::fail(base::ExitCode::Input, "{}: cannot be written: this build has no OpenVDB", path.string());
+}
+
+}  // namespace sfumato::volumes
+
+#endif
