@@ -45,11 +45,10 @@ class Geometry {
     return scene_.materials[static_cast<size_t>(mesh(hit).material)];
   }
 
-  // Whether a camera ray sees the face that it hit: front faces, and both of doubleSided materials.
+  // Whether a camera ray sees the face that it hit: front faces, counter-clockwise in the world, and both of
+  // doubleSided materials.
   bool isSeen(const Hit& hit, const glm::dvec3& direction) const {
-    if (material(hit).doubleSided) return true;
-    const bool mirrored = glm::determinant(glm::dmat3(instance(hit).worldFromObject)) < 0;
-    return glm::dot(windingNormal(hit), direction) * (mirrored ? -1 : 1) < 0;
+    return material(hit).doubleSided || glm::dot(windingNormal(hit), direction) < 0;
   }
 
   SurfacePoint pointAt(const Ray& ray, const Hit& hit) const {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -320,8 +321,11 @@ TEST(Reference, BackFacesAreSeenOnlyWhereTheMaterialIsDoubleSided) {
   known.scene.materials.back().doubleSided = true;  // its normal is turned to the viewer
   expectEverywhere(render(known), {3 / pi, 0, 0}, storedAsFloat);
 
-  known.scene.materials.back().doubleSided = false;  // mirrored: the front stays the front
+  // Mirrored: what counts is the winding in the world, so the mesh must be wound the other way.
+  known.scene.materials.back().doubleSided = false;
   known.scene.instances[front].worldFromObject = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+  expectEverywhere(render(known), glm::dvec3(0.5 * 3 / pi), storedAsFloat);
+  std::ranges::reverse(known.scene.meshes.back().indices);
   expectEverywhere(render(known), {3 / pi, 0, 0}, storedAsFloat);
 }
 
