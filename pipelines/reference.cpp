@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -43,11 +45,10 @@ class Geometry {
     return scene_.materials[static_cast<size_t>(mesh(hit).material)];
   }
 
-  // Whether a camera ray sees the face that it hit: front faces, and both of doubleSided materials.
+  // Whether a camera ray sees the face that it hit: front faces, counter-clockwise in the world, and both of
+  // doubleSided materials.
   bool isSeen(const Hit& hit, const glm::dvec3& direction) const {
-    if (material(hit).doubleSided) return true;
-    const bool mirrored = glm::determinant(glm::dmat3(instance(hit).worldFromObject)) < 0;
-    return glm::dot(windingNormal(hit), direction) * (mirrored ? -1 : 1) < 0;
+    return material(hit).doubleSided || glm::dot(windingNormal(hit), direction) < 0;
   }
 
   SurfacePoint pointAt(const Ray& ray, const Hit& hit) const {
@@ -243,9 +244,10 @@ class Tracer {
     for (const Medium* medium : media) voxel = std::min(voxel, volumes::voxelSize(medium->worldFromIndex));
     const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * voxel));
     const double length = (tMax - tMin) / steps;
+    std::vector<double> extinctions;  // of each medium
     for (double step = 0; step < steps && !isNegligible(transmittance); ++step) {
       const glm::dvec3 p = ray.at(tMin + (step + 0.5) * length);
-      std::vector<double> extinctions;
+      extinctions.clear();
       double extinction = 0;
       for (const Medium* medium : media) {
         extinctions.push_back(volumes::extinctionAt(*medium, p));

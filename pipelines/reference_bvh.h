@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
-#include <span>
+#include <limits>
 #include <vector>
 
 namespace sfumato::pipelines {
@@ -33,8 +33,8 @@ using Triangle = std::array<glm::dvec3, 3>;
 
 struct Hit {
   double t = 0;
-  uint32_t triangle = 0;   // index in the triangles given
-  glm::dvec3 weights{0.};  // barycentric, of the triangle's corners
+  uint32_t triangle = 0;    // index in the triangles given
+  glm::dvec3 weights{0.0};  // barycentric, of the triangle's corners
 };
 
 class Bvh {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -320,8 +321,11 @@ TEST(Reference, BackFacesAreSeenOnlyWhereTheMaterialIsDoubleSided) {
   known.scene.materials.back().doubleSided = true;  // its normal is turned to the viewer
   expectEverywhere(render(known), {3 / pi, 0, 0}, storedAsFloat);
 
-  known.scene.materials.back().doubleSided = false;  // mirrored: the front stays the front
+  // Mirrored: what counts is the winding in the world, so the mesh must be wound the other way.
+  known.scene.materials.back().doubleSided = false;
   known.scene.instances[front].worldFromObject = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+  expectEverywhere(render(known), glm::dvec3(0.5 * 3 / pi), storedAsFloat);
+  std::ranges::reverse(known.scene.meshes.back().indices);
   expectEverywhere(render(known), {3 / pi, 0, 0}, storedAsFloat);
 }
 
@@ -330,6 +334,26 @@ TEST(Reference, LightFromBehindTheSeenSideDoesNothing) {
   known.scene.instances.erase(known.scene.instances.begin());  // the wall
   known.scene.lights = {tests::directionalLight({0, 0, 1}, {3, 3, 3})};
   expectEverywhere(render(known), glm::dvec3(0), 0);
+}
+
+// A shading normal that leans over to a light below the horizon of the triangle gathers nothing from it.
+TEST(Reference, LightBelowTheTrianglesHorizonDoesNothing) {
+  KnownScene known = tests::veilsOverWall();
+  known.scene.instances.resize(1);
+  for (scene::Vertex& vertex : known.scene.meshes[0].vertices) vertex.normal = {0.8f, 0, 0.6f};
+  known.scene.lights = {tests::directionalLight({-0.8, 0, 0.6}, {3, 3, 3})};
+  known.scene.lights[0].castsShadow = false;
+  expectEverywhere(render(known), glm::dvec3(0), 0);
+  known.scene.lights[0].direction = {-0.8, 0, -0.6};
+  expectEverywhere(render(known), glm::dvec3(0.5 * 3 / pi), storedAsFloat);
+}
+
+TEST(Reference, WhatIsBehindALightShadowsNothingOfIt) {
+  KnownScene known = tests::planeUnderPointLight();  // the light at y = 2, the camera at 3
+  const image::Image expected = render(known);
+  tests::add(known.scene, tests::quad({-4, 4, 4}, {8, 0, 0}, {0, 0, -8}), tests::lambert({1, 1, 1}));
+  known.media = {tests::block({-4, 4, -4}, {4, 5, 4}, {4, 4, 4}, 5, {1, 1, 1}, 0)};
+  EXPECT_EQ(render(known).values, expected.values);
 }
 
 TEST(Reference, WhatIsNearerOrFartherIsNotSeen) {
@@ -356,6 +380,9 @@ TEST(Reference, PerspectiveDistancesAreDepths) {
   known.scene.cameras[0].farDistance = 3.001;
   EXPECT_EQ(render(known).values, expected.values);
   known.scene.cameras[0].farDistance = 2.9995;
+  expectEverywhere(render(known), glm::dvec3(0), 0);
+  known.scene.cameras[0].nearDistance = 3.0005;
+  known.scene.cameras[0].farDistance = scene::infinity;
   expectEverywhere(render(known), glm::dvec3(0), 0);
 }
 
