@@ -20,8 +20,8 @@
 #include "pipelines/linked_lists_gpu.h"
 #include "scene/camera_view.h"
 #include "scene/gltf.h"
+#include "scene/media.h"
 #include "scene/visible_hull.h"
-#include "volumes/vdb_file.h"
 
 namespace sfumato::app {
 
@@ -49,23 +49,6 @@ scene::Scene loadScene(const RenderOptions& options) {
     scene.volumes.push_back(volume);
   }
   return scene;
-}
-
-std::vector<volumes::Medium> loadMedia(const scene::Scene& scene) {
-  std::vector<volumes::Medium> media;
-  for (const scene::VolumePlacement& placement : scene.volumes) {
-    volumes::Medium medium;
-    medium.grid = volumes::readVdb(placement.file, placement.gridName);
-    medium.worldFromIndex = placement.worldFromGridWorld * medium.grid.worldFromIndex;
-    medium.scale = placement.scale;
-    medium.albedo = placement.albedo;
-    medium.g = placement.g;
-    if (std::abs(glm::determinant(glm::dmat3(medium.worldFromIndex))) == 0)
-      fail(ExitCode::Input, "{}: the volume is placed flat: give its node a scale that is not zero",
-           placement.file);
-    media.push_back(std::move(medium));
-  }
-  return media;
 }
 
 // A camera in front of everything, a little above it.
@@ -167,7 +150,7 @@ int render(const RenderOptions& options) {
   }
   if (scene.lights.empty())
     base::warn("{}: no lights: the picture will be black but for what glows", options.scene);
-  const std::vector<volumes::Medium> media = loadMedia(scene);
+  const std::vector<volumes::Medium> media = scene::readMedia(scene);
 
   const bool debug = base::verbosity() == base::Verbosity::Verbose;
   gl::Device device({.choice = options.common.device, .debug = debug, .shaderDir = options.common.shaderDir});

@@ -51,6 +51,7 @@ class Lists {
   std::vector<uint32_t> readHeads() const;
   std::vector<shared::ListLink> readLinks() const;
   const gl::Buffer& payloads() const { return payloads_; }
+  gl::Buffer& countersForTest() { return counters_; }
 
  private:
   void allocateNodes(gl::Device& device, size_t nodes);

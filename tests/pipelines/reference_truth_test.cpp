@@ -10,24 +10,10 @@
 #include "image/metrics.h"
 #include "pipelines/reference.h"
 #include "scene/gltf.h"
-#include "volumes/vdb_file.h"
+#include "scene/media.h"
 
 namespace sfumato::pipelines {
 namespace {
-
-std::vector<volumes::Medium> readMedia(const scene::Scene& scene) {
-  std::vector<volumes::Medium> media;
-  for (const scene::VolumePlacement& volume : scene.volumes) {
-    volumes::Medium medium;
-    medium.grid = volumes::readVdb(volume.file, volume.gridName);
-    medium.worldFromIndex = volume.worldFromGridWorld * medium.grid.worldFromIndex;
-    medium.scale = volume.scale;
-    medium.albedo = volume.albedo;
-    medium.g = volume.g;
-    media.push_back(std::move(medium));
-  }
-  return media;
-}
 
 class ReferenceTruth : public testing::TestWithParam<const char*> {};
 
@@ -37,7 +23,7 @@ TEST_P(ReferenceTruth, AgreesWithAnotherRenderer) {
   const std::filesystem::path base = std::filesystem::path(folder) / GetParam();
   const scene::Scene scene = scene::readGltf(base.string() + ".gltf");
   const image::Image truth = image::readImage(base.string() + ".exr");
-  const image::Image image = renderReference(scene, scene.cameras[0], readMedia(scene),
+  const image::Image image = renderReference(scene, scene.cameras[0], scene::readMedia(scene),
                                              {.width = truth.width,
                                               .height = truth.height,
                                               .samples = 8,
