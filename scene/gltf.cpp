@@ -173,8 +173,7 @@ bool readExternalFile(std::vector<unsigned char>* out, std::string*, const std::
       base::fail(ExitCode::Input, "{}: is not a regular file", path.string());
     const uint64_t size = fs::file_size(path, error);
     if (!error && size > maxExternalBytes - files.bytes)
-      base::fail(ExitCode::Input, "{}: brings the scene's files to more than 4 GiB",
-                 printable(path.string()));
+      base::fail(ExitCode::Input, "{}: brings the scene's files to more than 4 GiB", path.string());
     const std::vector<std::byte> bytes = base::readFile(path);
     files.bytes += bytes.size();
     out->resize(bytes.size());
@@ -187,7 +186,7 @@ bool readExternalFile(std::vector<unsigned char>* out, std::string*, const std::
 }
 
 // Keeps a uri's bytes as they are. Those of a buffer view come from bounds that nobody has checked yet, so
-// they are left alone and found again by imageBytes().
+// they are left alone; Materials finds them again.
 bool keepEncoded(tinygltf::Image* image, int, std::string*, std::string*, int, int,
                  const unsigned char* bytes, int size, void*) {
   if (image->bufferView == -1) image->image.assign(bytes, bytes + std::max(size, 0));
