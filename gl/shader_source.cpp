@@ -56,6 +56,7 @@ class Resolver {
     source_.text += fmt::format("#line 1 {}\n", number);
     std::string line;
     for (int row = 1; std::getline(lines, line); ++row) {
+      if (line == "#pragma once") line.clear();  // for C++; here every file comes once anyway
       if (const auto included = includedName(line)) {
         append(*included);
         source_.text += fmt::format("#line {} {}\n", row + 1, number);

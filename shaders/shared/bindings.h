@@ -1,7 +1,5 @@
 // Who is bound where. One number has one meaning in every pass that uses it.
-#ifdef __cplusplus
 #pragma once
-#endif
 
 // Uniform blocks
 #define UNIFORM_VIEW 0  // ViewParams: what is looked from

@@ -1,4 +1,5 @@
 // Deep shadow maps: per texel a transmittance function of the depth seen from the light.
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 

@@ -1,4 +1,5 @@
 // Meshes and materials, as scene/geometry_gpu uploads them.
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 

@@ -1,4 +1,5 @@
 // Lights, as lights/lights_gpu uploads them: directional ones first, then point, then spot lights.
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 

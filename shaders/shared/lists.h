@@ -1,4 +1,5 @@
 // The list container: cells, each with a linked list of nodes sorted by (depth, id).
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 

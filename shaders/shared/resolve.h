@@ -1,4 +1,5 @@
 // The camera's walk through surfaces and smoke.
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 

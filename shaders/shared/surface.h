@@ -1,4 +1,5 @@
 // A lit surface point, packed: two G-buffer textures hold the first eight words, a node of the camera's lists all nine.
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 

@@ -1,4 +1,5 @@
 // What a scene is looked at from: the camera, or one face of a light's shadow map.
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 

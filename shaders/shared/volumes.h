@@ -1,4 +1,5 @@
 // Media, as volumes/volumes_gpu uploads them.
+#pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 
