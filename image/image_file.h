@@ -18,23 +18,24 @@ namespace sfumato::image {
 Image readImage(const std::filesystem::path& path);
 
 // Writes channels R, G, B (and A for four channels) of a linear image; the ending chooses: `.exr` (half
-// unless `fullFloat`, zip) holds it as it is, `.png` is tone-mapped by toneMap() to 8-bit sRGB. Beside, then
-// renamed: a failure (Input) leaves no file. Other endings are a Usage error.
+// unless `fullFloat`, zip) holds it as it is, but what half cannot hold becomes +-65504; `.png` is
+// tone-mapped by toneMap() to 8-bit sRGB. Metadata become attributes. Beside, then renamed: a failure (Input)
+// leaves no file. Other endings are a Usage error.
 void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                 bool fullFloat = false);
 
 // Throws Usage unless writeImage knows the ending of `path`.
 void checkImageName(const std::filesystem::path& path);
 
-// An encoded picture (PNG, JPEG, …) as 8-bit RGBA, rows from the top, as stored (sRGB stays sRGB).
+// A picture as 8-bit RGBA, rows from the top, as stored (sRGB stays sRGB).
 struct Picture {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> rgba;
 };
 
-// Decodes from memory; `name` stands in the error line. Throws Input when it is not a picture, or wider or
-// higher than 16384.
+// Decodes a PNG or JPEG from memory; `name` stands in the error line. Throws Input when it is neither,
+// damaged, or wider or higher than 16384.
 Picture decodePicture(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace sfumato::image

@@ -7,13 +7,31 @@
 
 namespace sfumato::scene {
 
-// Reads a .gltf or .glb with its buffers and pictures (embedded, data: or beside it).
-// Supported: node hierarchies and instances, perspective and orthographic cameras, KHR_lights_punctual,
-// metallic-roughness materials with KHR_materials_transmission and KHR_materials_specular, and volumes: a
-// node with extras "volume" (path relative to the file), "volume_grid", "volume_scale", "volume_albedo",
-// "volume_g". Throws Input in one line that starts with the path: missing, damaged or hostile file, an index
-// out of range, a cyclic node graph, a required extension that is not supported (named). An unknown optional
-// extension is a warning, once.
+// Reads a .gltf or .glb (told apart by their first bytes) with its buffers and pictures (embedded, data: or
+// beside it): the default scene, else scene 0, else all root nodes.
+//
+// Supported: node hierarchies of any depth and instances; triangles, strips and fans, indexed or not, of any
+// accessor (also strided, normalised and sparse); perspective and orthographic cameras; KHR_lights_punctual;
+// metallic-roughness materials with KHR_materials_transmission, _specular, _ior (folded into the specular
+// colour) and _emissive_strength; KHR_mesh_quantization; PNG and JPEG pictures; and volumes: a node with
+// extras "volume" (path relative to the file), "volume_grid", "volume_scale", "volume_albedo" (three
+// numbers), "volume_g". A warning, once each: points and lines, animations, skins, morph targets and
+// extensions that are used but not required and not supported. These are left out.
+//
+// What is guaranteed, so that no consumer needs a special case:
+// - every mesh has a material (the glTF default one is added last where a primitive names none), unit normals
+//   (flat ones where the file has none, with vertices of their own), and tangents for its normal texture;
+// - front faces are counter-clockwise in the world, and the bitangent there is cross(normal, tangent) * w: an
+//   instance with a mirroring transform has a mesh of its own, wound and handed the other way;
+// - worldFromObject has an inverse: a transform that flattens its mesh is applied to a mesh of its own;
+// - cameras are rotation and translation only; light directions are unit, whatever the scale of the node;
+// - cameras and lights have their node's name, else their own; names have no control characters;
+// - instances, lights, cameras and volumes are in depth-first order of the nodes.
+//
+// Throws Input in one line that starts with the path: a missing, damaged or hostile file, an index out of
+// range, a cyclic node graph, a number out of its range, a required extension that is not supported (named),
+// more than 2^26 vertices and indices, 2^22 instances, or 4 GiB of files beside it or of textures. Throws
+// Memory when that is more than the machine has.
 Scene readGltf(const std::filesystem::path& path);
 
 }  // namespace sfumato::scene

@@ -1,0 +1,51 @@
+#include "app/statistics_gpu.h"
+
+#include <nlohmann/json.hpp>
+
+namespace sfumato::app {
+namespace {
+
+nlohmann::json toJson(const lists::ListStatistics& lists) {
+  return {{"cells", lists.cells},        {"nodes_demanded", lists.demand},
+          {"capacity", lists.capacity},  {"overflowed", lists.overflowed},
+          {"max_spins", lists.maxSpins}, {"builds", lists.builds},
+          {"bytes", lists.bytes}};
+}
+
+nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const gl::PassTime& pass : passes)
+    result.push_back({{"pass", pass.name},
+                      {"gpu_ms", pass.gpuMilliseconds},
+                      {"wall_ms", pass.wallMilliseconds},
+                      {"calls", pass.calls}});
+  return result;
+}
+
+}  // namespace
+
+nlohmann::json statisticsJson(gl::Device& device, const pipelines::FrameStatistics& statistics,
+                              const RunTimes& times) {
+  nlohmann::json result;
+  result["device"] = device.names().renderer;
+  result["startup"] = {{"seconds", times.startupSeconds}, {"passes", toJson(times.startupPasses)}};
+  result["frame"] = {{"seconds", times.frameSeconds},
+                     {"passes", toJson(times.framePasses)},
+                     {"triangles", statistics.triangles},
+                     {"resolve_dispatches", statistics.resolveDispatches},
+                     {"cut_walks", statistics.cutWalks}};
+  result["lists"] = {{"surfaces", toJson(statistics.surfaces)}, {"lights", toJson(statistics.lights)}};
+  result["lists"]["shadows"] = nlohmann::json::array();
+  for (const deepshadow::LightMap& map : statistics.shadows) {
+    nlohmann::json light = toJson(map.lists);
+    light["faces"] = map.faces;
+    light["texels"] = map.texels;
+    light["knots"] = map.knots;
+    result["lists"]["shadows"].push_back(light);
+  }
+  result["memory"] = {{"peak_bytes", device.memory().peakBytes()},
+                      {"peak_bytes_by_label", device.memory().peakBytesByLabel()}};
+  return result;
+}
+
+}  // namespace sfumato::app

@@ -1,0 +1,21 @@
+// The figures of a frame as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "gl/device.h"
+#include "pipelines/linked_lists_gpu.h"
+
+namespace sfumato::app {
+
+struct RunTimes {
+  double startupSeconds = 0;         // from program start to the first frame: files, uploads, shaders
+  std::vector<double> frameSeconds;  // wall clock of each frame
+  std::vector<gl::PassTime> startupPasses;
+  std::vector<gl::PassTime> framePasses;  // of the last frame
+};
+
+nlohmann::json statisticsJson(gl::Device& device, const pipelines::FrameStatistics& statistics,
+                              const RunTimes& times);
+
+}  // namespace sfumato::app

@@ -1,0 +1,68 @@
+// Deep shadow maps: for every texel of a light the transmittance as a function of depth, through coloured
+// surfaces and smoke (Lindbeck 2015, section 2.2; Lokovic and Veach 2000). Per light: opaque depth first, so
+// that nothing behind it is ever stored; then translucent surfaces and smoke into sorted lists under the spin
+// lock of each texel; then a resolve into runs of knots with the optical depth summed up.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "deepshadow/shadow_faces.h"
+#include "gl/buffer.h"
+#include "gl/device.h"
+#include "gl/texture.h"
+#include "lists/lists_gpu.h"
+#include "scene/geometry_gpu.h"
+#include "scene/scene.h"
+#include "volumes/volumes_gpu.h"
+
+namespace sfumato::deepshadow {
+
+struct MapInputs {
+  const std::vector<scene::Light>& lights;
+  const scene::GeometryGpu& geometry;
+  const volumes::VolumesGpu& volumes;
+  const std::vector<glm::dvec3>& receivers;  // see shadowFaces()
+  const std::vector<glm::dvec3>& casters;
+  int resolution = 1024;     // texels a side; a face of a cube has half
+  double stepMetres = 0.01;  // of the march through smoke
+  double error =
+      1.0 /
+      512;  // bound of the error that compression adds to the transmittance of smoke; 0 keeps every step
+};
+
+struct LightMap {
+  int firstFace = -1;  // among all faces; -1: this light casts no shadow
+  int faces = 0;
+  size_t firstTexel = 0;
+  size_t texels = 0;
+  size_t knots = 0;
+  lists::ListStatistics lists;
+};
+
+class Maps {
+ public:
+  // Builds the maps of every shadow-casting light. Costs 12 bytes a texel and 16 a knot; while it builds, 8
+  // bytes a texel of one light and 24 a node. Throws Memory when one buffer would be over the device's limit.
+  Maps(gl::Device& device, const MapInputs& inputs);
+
+  const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights
+  // Texels whose march through smoke was cut at its bound; 0 unless steps are absurdly short.
+  size_t cutMarches() const { return cutMarches_; }
+  // For shaders that include shaders/deepshadow/lookup.glsl.
+  void bind() const;
+  const gl::Buffer& texels() const { return texels_; }
+  const gl::Buffer& knots() const { return knots_; }
+
+ private:
+  std::vector<LightMap> lightMaps_;
+  gl::Buffer faces_;
+  gl::Buffer texels_;
+  gl::Buffer knots_;
+  gl::BufferTexture texelsView_;
+  gl::BufferTexture knotsView_;
+  size_t cutMarches_ = 0;
+};
+
+}  // namespace sfumato::deepshadow

@@ -1,0 +1,88 @@
+#include "deepshadow/shadow_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sfumato::deepshadow {
+
+using glm::dmat4;
+using glm::dvec2;
+using glm::dvec3;
+
+namespace {
+
+constexpr double widestSpot =
+    1.0471975511965976;  // radians off the axis that one perspective face still takes
+constexpr double marginTexels = 2;
+
+// A space at `origin` that looks along `forward` (unit) with -Z.
+dmat4 lookingAlong(const dvec3& forward, const dvec3& origin) {
+  const dvec3 z = -forward;
+  const dvec3 helper = std::abs(z.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
+  const dvec3 x = glm::normalize(glm::cross(helper, z));
+  const dvec3 y = glm::cross(z, x);
+  return dmat4(glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(origin, 1));
+}
+
+// Half extent of a face whose inner part, all but the margin on each side, is `inner`.
+double withMargin(double inner, int side) {
+  return inner * side / (side - 2 * marginTexels);
+}
+
+FaceProjection directionalFace(const dvec3& direction, int side, std::span<const dvec3> receivers,
+                               std::span<const dvec3> casters) {
+  const dmat4 rotation = lookingAlong(direction, dvec3(0));
+  const glm::dmat3 faceFromWorld = glm::transpose(glm::dmat3(rotation));
+  dvec2 low(scene::infinity);
+  dvec2 high(-scene::infinity);
+  for (const dvec3& p : receivers) {
+    const dvec2 xy(faceFromWorld * p);
+    low = glm::min(low, xy);
+    high = glm::max(high, xy);
+  }
+  double nearest = -scene::infinity;  // largest z: the caster nearest to the light
+  for (const dvec3& p : casters) nearest = std::max(nearest, (faceFromWorld * p).z);
+  if (receivers.empty() || casters.empty()) {
+    low = dvec2(-1);
+    high = dvec2(1);
+    nearest = 0;
+  }
+  const dvec2 half = glm::max((high - low) * 0.5, dvec2(1e-6 * (1 + glm::length(high))));
+  const dvec3 centre((low + high) * 0.5, nearest + 1e-3 * glm::length(half) + 1e-6);
+  FaceProjection face;
+  face.worldFromFace = lookingAlong(direction, glm::dmat3(rotation) * centre);
+  face.orthographic = true;
+  face.halfExtent = {withMargin(half.x, side), withMargin(half.y, side)};
+  face.side = side;
+  return face;
+}
+
+FaceProjection perspectiveFace(const dvec3& forward, const dvec3& origin, double tangent, int side) {
+  FaceProjection face;
+  face.worldFromFace = lookingAlong(forward, origin);
+  face.halfExtent = dvec2(withMargin(tangent, side));
+  face.side = side;
+  return face;
+}
+
+}  // namespace
+
+std::vector<FaceProjection> shadowFaces(const scene::Light& light, int resolution,
+                                        std::span<const dvec3> receivers, std::span<const dvec3> casters) {
+  const int side = std::max(32, resolution / 16 * 16);
+  if (light.type == scene::LightType::Directional)
+    return {directionalFace(light.direction, side, receivers, casters)};
+  if (light.type == scene::LightType::Spot && light.outerCone <= widestSpot)
+    return {perspectiveFace(light.direction, light.position, std::tan(light.outerCone), side)};
+  std::vector<FaceProjection> faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      dvec3 forward(0);
+      forward[axis] = sign;
+      faces.push_back(perspectiveFace(forward, light.position, 1.0, side / 2));
+    }
+  }
+  return faces;
+}
+
+}  // namespace sfumato::deepshadow

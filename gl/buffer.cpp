@@ -1,0 +1,99 @@
+#include "gl/buffer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace sfumato::gl {
+
+using base::ExitCode;
+using base::fail;
+
+void deleteBuffer(unsigned name) {
+  glDeleteBuffers(1, &name);
+}
+
+namespace {
+
+Object<deleteBuffer> createBuffer() {
+  GLuint name = 0;
+  glGenBuffers(1, &name);
+  return Object<deleteBuffer>(name);
+}
+
+}  // namespace
+
+Buffer::Buffer(Device& device, std::string label, size_t bytes, Whole whole)
+    : ledger_(&device.memory()), label_(std::move(label)), bytes_(std::max<size_t>(bytes, 16)) {
+  if (whole == Whole::Bound && bytes_ > static_cast<size_t>(device.limits().storageBlockBytes))
+    fail(ExitCode::Memory,
+         "{}: needs {:.1f} MiB, this device allows {:.1f} MiB in one buffer: lower the resolution", label_,
+         static_cast<double>(bytes_) / 0x1p20,
+         static_cast<double>(device.limits().storageBlockBytes) / 0x1p20);
+  object_ = createBuffer();
+  glBindBuffer(GL_COPY_WRITE_BUFFER, name());
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes_), nullptr, GL_DYNAMIC_COPY);
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    fail(ExitCode::Memory, "{}: the device has no room for {:.1f} MiB: lower the resolution", label_,
+         static_cast<double>(bytes_) / 0x1p20);
+  ledger_->add(label_, bytes_);
+}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+  std::swap(object_, other.object_);
+  std::swap(ledger_, other.ledger_);
+  std::swap(label_, other.label_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+Buffer::~Buffer() {
+  if (object_.name() != 0) ledger_->remove(label_, bytes_);
+}
+
+void Buffer::write(std::span<const std::byte> bytes, size_t offset) {
+  base::check(offset + bytes.size() <= bytes_, "a write stays inside its buffer");
+  if (bytes.empty()) return;
+  glBindBuffer(GL_COPY_WRITE_BUFFER, name());
+  glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
+                  bytes.data());
+}
+
+void Buffer::clear() {
+  glBindBuffer(GL_COPY_WRITE_BUFFER, name());
+  glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void Buffer::copyFrom(const Buffer& source, size_t bytes, size_t offset) {
+  glBindBuffer(GL_COPY_READ_BUFFER, source.name());
+  glBindBuffer(GL_COPY_WRITE_BUFFER, name());
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
+                      static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
+void Buffer::read(std::span<std::byte> bytes, size_t offset) const {
+  base::check(offset + bytes.size() <= bytes_, "a read stays inside its buffer");
+  if (bytes.empty()) return;
+  glBindBuffer(GL_COPY_READ_BUFFER, name());
+  glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset),
+                     static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+void Buffer::bindStorage(unsigned binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name());
+}
+
+void Buffer::bindStorageRange(unsigned binding, size_t offset, size_t bytes) const {
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, name(), static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(bytes));
+}
+
+void Buffer::bindUniform(unsigned binding) const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, binding, name());
+}
+
+}  // namespace sfumato::gl

@@ -1,0 +1,111 @@
+#include "gl/commands.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "base/error.h"
+
+namespace sfumato::gl {
+
+void deleteVertexArray(unsigned name) {
+  glDeleteVertexArrays(1, &name);
+}
+
+namespace {
+
+void enable(GLenum capability, bool on) {
+  if (on)
+    glEnable(capability);
+  else
+    glDisable(capability);
+}
+
+const void* byteOffset(size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
+
+}  // namespace
+
+void setDrawState(const DrawState& state) {
+  glUseProgram(state.program->name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, state.target->name());
+  glViewport(state.viewport.x, state.viewport.y, state.viewport.z, state.viewport.w);
+  enable(GL_DEPTH_TEST, state.depthTest);
+  glDepthFunc(GL_LESS);
+  glDepthMask(state.depthTest ? GL_TRUE : GL_FALSE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  enable(GL_DEPTH_CLAMP, state.depthClamp);
+  glFrontFace(GL_CCW);
+  setCull(state.cull);
+  enable(GL_BLEND, state.blend == Blend::Minimum);
+  glBlendEquation(GL_MIN);
+  enable(GL_SCISSOR_TEST, state.scissor.has_value());
+  if (state.scissor) glScissor(state.scissor->x, state.scissor->y, state.scissor->z, state.scissor->w);
+  glDisable(GL_STENCIL_TEST);
+}
+
+void setCull(Cull cull) {
+  enable(GL_CULL_FACE, cull == Cull::Back);
+  glCullFace(GL_BACK);
+}
+
+VertexArray::VertexArray(Device& device, const Buffer& vertices, size_t vertexBytes,
+                         std::span<const VertexAttribute> attributes, const Buffer& indices,
+                         int instanceLocation, size_t maxInstances) {
+  std::vector<uint32_t> numbers(maxInstances);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  instanceNumbers_ = Buffer(device, "instance numbers", std::span<const uint32_t>(numbers));
+  GLuint name = 0;
+  glGenVertexArrays(1, &name);
+  object_ = Object<deleteVertexArray>(name);
+  glBindVertexArray(name);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices.name());
+  for (const VertexAttribute& attribute : attributes) {
+    const auto location = static_cast<GLuint>(attribute.location);
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, attribute.floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(vertexBytes),
+                          byteOffset(attribute.offset));
+  }
+  const auto location = static_cast<GLuint>(instanceLocation);
+  glBindBuffer(GL_ARRAY_BUFFER, instanceNumbers_.name());
+  glEnableVertexAttribArray(location);
+  glVertexAttribIPointer(location, 1, GL_UNSIGNED_INT, 0, nullptr);
+  glVertexAttribDivisor(location, 1);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
+  glBindVertexArray(0);
+}
+
+void drawIndexed(const VertexArray& vertices, const IndexedRange& range) {
+  glBindVertexArray(vertices.name());
+  glDrawElementsInstancedBaseVertexBaseInstance(
+      GL_TRIANGLES, static_cast<GLsizei>(range.indices), GL_UNSIGNED_INT,
+      byteOffset(range.firstIndex * sizeof(uint32_t)), static_cast<GLsizei>(range.instances),
+      static_cast<GLint>(range.firstVertex), static_cast<GLuint>(range.firstInstance));
+}
+
+void drawGenerated(const Device& device, size_t vertices, size_t instances) {
+  glBindVertexArray(device.emptyVertexArray());
+  glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices), static_cast<GLsizei>(instances));
+}
+
+void dispatch(const Program& program, glm::uvec3 groups) {
+  if (groups.x == 0 || groups.y == 0 || groups.z == 0) return;
+  glUseProgram(program.name());
+  glDispatchCompute(groups.x, groups.y, groups.z);
+}
+
+void dispatchLinear(const Program& program, size_t count) {
+  constexpr unsigned maxGroups = 65535;  // of every GL 4.3 in each direction
+  const unsigned groups = groupsFor(count, 64);
+  dispatch(program, {std::min(groups, maxGroups), groupsFor(groups, maxGroups), 1});
+}
+
+void storageBarrier() {
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+}  // namespace sfumato::gl

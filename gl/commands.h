@@ -1,0 +1,85 @@
+// Draws, dispatches and barriers. A draw states all the GL state that it needs; nothing is inherited.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "gl/buffer.h"
+#include "gl/object.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+
+namespace sfumato::gl {
+
+void deleteVertexArray(unsigned name);
+
+enum class Cull { None, Back };
+enum class Blend { None, Minimum };  // Minimum keeps the smaller of what is there and what is drawn
+
+struct DrawState {
+  const Program* program = nullptr;
+  const Framebuffer* target = nullptr;
+  glm::ivec4 viewport{0};             // x, y, width, height
+  std::optional<glm::ivec4> scissor;  // fragments outside x, y, width, height are not made
+  bool depthTest = false;             // less; writes depth as well
+  bool depthClamp = false;
+  Cull cull = Cull::None;
+  Blend blend = Blend::None;
+};
+
+// Makes the state current for the draws that follow.
+void setDrawState(const DrawState& state);
+// Changes only the culling of the current state.
+void setCull(Cull cull);
+
+// Which floats of an interleaved vertex feed an attribute.
+struct VertexAttribute {
+  int location = 0;
+  int floats = 0;
+  size_t offset = 0;  // bytes in the vertex
+};
+
+// Interleaved float vertices, 32-bit indices, and attribute `instanceLocation`: a uint that counts instances
+// from a draw's first one, so that a shader knows which instance it draws.
+class VertexArray {
+ public:
+  VertexArray() = default;
+  VertexArray(Device& device, const Buffer& vertices, size_t vertexBytes,
+              std::span<const VertexAttribute> attributes, const Buffer& indices, int instanceLocation,
+              size_t maxInstances);
+  unsigned name() const { return object_.name(); }
+
+ private:
+  Object<deleteVertexArray> object_;
+  Buffer instanceNumbers_;
+};
+
+struct IndexedRange {
+  size_t firstIndex = 0;
+  size_t indices = 0;
+  size_t firstVertex = 0;
+  size_t firstInstance = 0;
+  size_t instances = 1;
+};
+
+void drawIndexed(const VertexArray& vertices, const IndexedRange& range);
+// Triangles whose vertices the shader makes from gl_VertexID and gl_InstanceID.
+void drawGenerated(const Device& device, size_t vertices, size_t instances);
+
+// Runs a compute program on a grid of workgroups; zero in any direction does nothing.
+void dispatch(const Program& program, glm::uvec3 groups);
+// The same with at least `count` invocations of a program of 64 in a row a workgroup, in two dimensions where
+// one is too short; shaders/shared/linear_id.glsl gives each its number.
+void dispatchLinear(const Program& program, size_t count);
+
+// What shaders wrote to storage buffers becomes visible to later shaders (as blocks and as buffer textures),
+// copies and reads.
+void storageBarrier();
+
+// Workgroups of `groupSize` that cover `count`.
+inline unsigned groupsFor(size_t count, unsigned groupSize) {
+  return static_cast<unsigned>((count + groupSize - 1) / groupSize);
+}
+
+}  // namespace sfumato::gl

@@ -1,0 +1,215 @@
+#include "gl/texture.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace sfumato::gl {
+
+using base::ExitCode;
+using base::fail;
+
+void deleteTexture(unsigned name) {
+  glDeleteTextures(1, &name);
+}
+
+void deleteFramebuffer(unsigned name) {
+  glDeleteFramebuffers(1, &name);
+}
+
+namespace {
+
+struct FormatTraits {
+  GLenum internal, layout, type;
+  size_t bytes;
+};
+
+FormatTraits traits(Format format) {
+  switch (format) {
+    case Format::R32F:
+      return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case Format::RGBA8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::SRGB8A8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::RGBA32UI:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
+    case Format::Depth32F:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+  }
+  return {};
+}
+
+GLint wrapping(Wrapping wrap) {
+  constexpr GLint values[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
+  return values[static_cast<int>(wrap)];
+}
+
+void checkSize(const Device& device, const std::string& label, glm::ivec3 size) {
+  const int limit = size.z > 1 ? device.limits().texture3dSize : device.limits().texture2dSize;
+  const int largest = std::max({size.x, size.y, size.z});
+  if (largest > limit)
+    fail(ExitCode::Memory, "{}: {} x {} x {} texels, this device allows {} a side: use a smaller one", label,
+         size.x, size.y, size.z, limit);
+}
+
+}  // namespace
+
+Texture::Texture(Device& device, std::string label, const TextureDescription& description,
+                 std::span<const std::byte> texels)
+    : ledger_(&device.memory()),
+      label_(std::move(label)),
+      target_(description.size.z > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D),
+      size_(description.size) {
+  checkSize(device, label_, size_);
+  const FormatTraits format = traits(description.format);
+  bytes_ = static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z) *
+           format.bytes;
+  base::check(texels.empty() || texels.size() == bytes_, "a texture gets as many texels as it has");
+  const bool mipmaps = description.filter == Filter::LinearMipmap;
+  const int levels = mipmaps ? 1 + static_cast<int>(std::log2(std::max(size_.x, size_.y))) : 1;
+
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  object_ = Object<deleteTexture>(name);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(target_, name);
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  if (target_ == GL_TEXTURE_3D)
+    glTexStorage3D(target_, levels, format.internal, size_.x, size_.y, size_.z);
+  else
+    glTexStorage2D(target_, levels, format.internal, size_.x, size_.y);
+  if (glGetError() == GL_OUT_OF_MEMORY)
+    fail(ExitCode::Memory, "{}: the device has no room for {:.1f} MiB", label_,
+         static_cast<double>(bytes_) / 0x1p20);
+  if (!texels.empty()) {
+    if (target_ == GL_TEXTURE_3D)
+      glTexSubImage3D(target_, 0, 0, 0, 0, size_.x, size_.y, size_.z, format.layout, format.type,
+                      texels.data());
+    else
+      glTexSubImage2D(target_, 0, 0, 0, size_.x, size_.y, format.layout, format.type, texels.data());
+    if (mipmaps) glGenerateMipmap(target_);
+  }
+  const GLint magnify = description.filter == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
+  glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
+  glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, mipmaps ? GL_LINEAR_MIPMAP_LINEAR : magnify);
+  glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
+  glTexParameteri(target_, GL_TEXTURE_WRAP_T, wrapping(description.wrapT));
+  glTexParameteri(target_, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+  if (mipmaps) bytes_ += bytes_ / 3;
+  ledger_->add(label_, bytes_);
+}
+
+Texture& Texture::operator=(Texture&& other) noexcept {
+  std::swap(object_, other.object_);
+  std::swap(ledger_, other.ledger_);
+  std::swap(label_, other.label_);
+  std::swap(bytes_, other.bytes_);
+  std::swap(target_, other.target_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+Texture::~Texture() {
+  if (object_.name() != 0) ledger_->remove(label_, bytes_);
+}
+
+void Texture::bind(unsigned unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(target_, name());
+}
+
+std::vector<float> Texture::readFloats() const {
+  std::vector<float> values(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) *
+                            static_cast<size_t>(size_.z));
+  GLint internal = 0;
+  glBindTexture(target_, name());
+  glGetTexLevelParameteriv(target_, 0, GL_TEXTURE_INTERNAL_FORMAT, &internal);
+  glGetTexImage(target_, 0, internal == GL_R32F ? GL_RED : GL_DEPTH_COMPONENT, GL_FLOAT, values.data());
+  return values;
+}
+
+BufferTexture::BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format) {
+  const size_t texelBytes = format == BufferFormat::RGBA32F ? 16 : 12;
+  const auto limit = static_cast<size_t>(device.limits().textureBufferTexels) * texelBytes;
+  if (buffer.bytes() > limit)
+    fail(ExitCode::Memory,
+         "{:.1f} MiB of shadow maps, this device reads {:.1f} MiB at once: lower --shadow-res",
+         static_cast<double>(buffer.bytes()) / 0x1p20, static_cast<double>(limit) / 0x1p20);
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  object_ = Object<deleteTexture>(name);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_BUFFER, name);
+  glTexBuffer(GL_TEXTURE_BUFFER, format == BufferFormat::RGBA32F ? GL_RGBA32F : GL_RGB32UI, buffer.name());
+}
+
+void BufferTexture::bind(unsigned unit) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_BUFFER, object_.name());
+}
+
+Framebuffer::Framebuffer(glm::ivec2 size) : size_(size) {
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  object_ = Object<deleteFramebuffer>(name);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name);
+  glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
+  glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
+  glDrawBuffer(GL_NONE);
+  base::check(glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
+              "a framebuffer is complete");
+}
+
+Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture* depth) {
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  object_ = Object<deleteFramebuffer>(name);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name);
+  std::vector<GLenum> buffers;
+  for (const Texture* colour : colours) {
+    buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
+    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, buffers.back(), colour->name(), 0);
+    size_ = colour->size();
+  }
+  glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  if (depth != nullptr) {
+    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+    size_ = depth->size();
+  }
+  base::check(glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
+              "a framebuffer is complete");
+}
+
+namespace {
+
+// Clears obey the masks that the last draw left.
+void openMasks(const Framebuffer& framebuffer) {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace
+
+void Framebuffer::clearColour(int attachment, glm::vec4 value) const {
+  openMasks(*this);
+  glClearBufferfv(GL_COLOR, attachment, &value.x);
+}
+
+void Framebuffer::clearColour(int attachment, glm::uvec4 value) const {
+  openMasks(*this);
+  glClearBufferuiv(GL_COLOR, attachment, &value.x);
+}
+
+void Framebuffer::clearDepth(float value) const {
+  openMasks(*this);
+  glClearBufferfv(GL_DEPTH, 0, &value);
+}
+
+}  // namespace sfumato::gl

@@ -1,0 +1,89 @@
+// Textures (2D, 2D array, 3D) and the framebuffers that draw into them.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/device.h"
+#include "gl/object.h"
+
+namespace sfumato::gl {
+
+void deleteTexture(unsigned name);
+void deleteFramebuffer(unsigned name);
+
+enum class Format { R32F, RGBA8, SRGB8A8, RGBA32UI, Depth32F };
+enum class BufferFormat { RGBA32F, RGB32UI };
+enum class Filter { Nearest, Linear, LinearMipmap };
+enum class Wrapping { Repeat, ClampToEdge, MirroredRepeat };
+
+struct TextureDescription {
+  Format format = Format::RGBA8;
+  glm::ivec3 size{1, 1, 1};  // texels; z > 1 makes it 3D
+  Filter filter = Filter::Nearest;
+  Wrapping wrapS = Wrapping::ClampToEdge;
+  Wrapping wrapT = Wrapping::ClampToEdge;
+};
+
+class Texture {
+ public:
+  Texture() = default;
+  // `texels`: rows of x, then y, then z, 4 bytes a channel-tuple for RGBA8 and R32F; empty: undefined
+  // content. Throws Memory when a side is over the device's limit (the line says which) or there is no room.
+  Texture(Device& device, std::string label, const TextureDescription& description,
+          std::span<const std::byte> texels = {});
+  Texture(Texture&& other) noexcept = default;
+  Texture& operator=(Texture&& other) noexcept;
+  ~Texture();
+
+  unsigned name() const { return object_.name(); }
+  glm::ivec3 size() const { return size_; }
+  void bind(unsigned unit) const;
+  std::vector<float> readFloats() const;  // R32F and Depth32F, bottom row first
+
+ private:
+  Object<deleteTexture> object_;
+  MemoryLedger* ledger_ = nullptr;
+  std::string label_;
+  size_t bytes_ = 0;
+  unsigned target_ = 0;
+  glm::ivec3 size_{0};
+};
+
+// A buffer seen as a row of texels: readable beyond the limit of one storage block. The buffer must outlive
+// it.
+class BufferTexture {
+ public:
+  BufferTexture() = default;
+  // Throws Memory when the buffer holds more texels than the device allows.
+  BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format);
+  void bind(unsigned unit) const;
+
+ private:
+  Object<deleteTexture> object_;
+};
+
+// What a draw writes to. Textures attached must outlive it.
+class Framebuffer {
+ public:
+  // Nothing attached: only side effects of fragments count. `size`: its width and height.
+  explicit Framebuffer(glm::ivec2 size);
+  // Colour attachments in order, and a depth buffer or nullptr.
+  Framebuffer(std::span<const Texture* const> colours, const Texture* depth);
+
+  unsigned name() const { return object_.name(); }
+  glm::ivec2 size() const { return size_; }
+  void clearColour(int attachment, glm::vec4 value) const;
+  void clearColour(int attachment, glm::uvec4 value) const;
+  void clearDepth(float value) const;
+
+ private:
+  Object<deleteFramebuffer> object_;
+  glm::ivec2 size_;
+};
+
+}  // namespace sfumato::gl

@@ -1,0 +1,229 @@
+#include "image/image_file.h"
+
+#include "base/error.h"
+
+#ifdef SFUMATO_OPENIMAGEIO
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+
+#include "base/file.h"
+#include "image/tone_map.h"
+
+namespace sfumato::image {
+
+namespace fs = std::filesystem;
+using base::ExitCode;
+using base::fail;
+
+namespace {
+
+constexpr float largestHalf = 65504.f;
+constexpr int maxPictureSide = 16384;
+constexpr uint64_t maxImageValues = uint64_t{1} << 31;
+// More than any real picture packs into a byte; a header that claims more is lying about its size.
+constexpr uint64_t maxPixelsPerByte = 65536;
+
+// OpenImageIO's messages may have several lines.
+std::string oneLine(std::string message) {
+  while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back()))) message.pop_back();
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return message.empty() ? "unknown reason" : message;
+}
+
+// Alpha stays as stored: no multiplication into the colour on reading.
+OIIO::ImageSpec readAsStored() {
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  return hints;
+}
+
+enum class Ending { Exr, Png };
+
+Ending endingOf(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".exr") return Ending::Exr;
+  if (ending == ".png") return Ending::Png;
+  fail(ExitCode::Usage, "{}: unknown image ending \"{}\": use .exr or .png", path.string(), ending);
+}
+
+void write(const fs::path& path, OIIO::ImageSpec spec, const Metadata& metadata, OIIO::TypeDesc type,
+           const void* pixels) {
+  for (const auto& [name, value] : metadata) spec.attribute(name, value);
+  base::PendingFile pending(path);
+  const auto output = OIIO::ImageOutput::create(pending.temporary().string());
+  if (!output) fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(OIIO::geterror()));
+  const bool written = output->open(pending.temporary().string(), spec) && output->write_image(type, pixels);
+  if (!output->close() || !written)
+    fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(output->geterror()));
+  pending.rename();
+}
+
+void writeExr(const fs::path& path, const Image& image, const Metadata& metadata, bool fullFloat) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channels,
+                       fullFloat ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF);
+  spec.attribute("compression", "zip");
+  std::vector<float> values = image.values;
+  if (!fullFloat)
+    for (float& value : values) value = std::clamp(value, -largestHalf, largestHalf);  // a NaN stays NaN
+  write(path, spec, metadata, OIIO::TypeDesc::FLOAT, values.data());
+}
+
+void writePng(const fs::path& path, const Image& image, const Metadata& metadata) {
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  const Image screen = toneMap(image);
+  std::vector<uint8_t> bytes(screen.values.size());
+  std::transform(screen.values.begin(), screen.values.end(), bytes.begin(), [](float value) {
+    return value > 0.f ? static_cast<uint8_t>(std::lround(std::min(value, 1.f) * 255.f)) : uint8_t{0};
+  });
+  write(path, spec, metadata, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+std::vector<uint8_t> expandToRgba(const std::vector<uint8_t>& stored, int channels) {
+  const size_t pixels = stored.size() / static_cast<size_t>(channels);
+  std::vector<uint8_t> rgba(pixels * 4);
+  const bool grey = channels < 3;
+  const bool alpha = channels == 2 || channels == 4;
+  for (size_t i = 0; i < pixels; ++i) {
+    const uint8_t* from = &stored[i * static_cast<size_t>(channels)];
+    uint8_t* to = &rgba[i * 4];
+    for (int c = 0; c < 3; ++c) to[c] = from[grey ? 0 : c];
+    to[3] = alpha ? from[channels - 1] : 255;
+  }
+  return rgba;
+}
+
+// The format by its first bytes; nullptr for what is neither PNG nor JPEG.
+const char* pictureFormat(std::span<const std::byte> bytes) {
+  const auto startsWith = [&](const char* magic, size_t size) {
+    return bytes.size() >= size && std::memcmp(bytes.data(), magic, size) == 0;
+  };
+  if (startsWith("\x89PNG\r\n\x1a\n", 8)) return "png";
+  if (startsWith("\xff\xd8\xff", 3)) return "jpeg";
+  return nullptr;
+}
+
+// Whether a PNG's chunks follow each other up to the last one. A cut file stops here, without the lines that
+// libpng would print.
+bool pngIsWhole(std::span<const std::byte> bytes) {
+  constexpr size_t signature = 8, frame = 12;  // a chunk's length, type and checksum
+  for (size_t at = signature; bytes.size() - at >= frame;) {
+    size_t length = 0;
+    for (size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<size_t>(bytes[at + i]);
+    if (length > bytes.size() - at - frame) return false;
+    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return true;
+    at += frame + length;
+  }
+  return false;
+}
+
+}  // namespace
+
+Image readImage(const fs::path& path) {
+  std::error_code error;
+  const uint64_t fileBytes = fs::file_size(path, error);
+  if (error) fail(ExitCode::Input, "{}: cannot be read: {}", path.string(), error.message());
+  if (fileBytes == 0) fail(ExitCode::Input, "{}: is empty: write it again", path.string());
+
+  const OIIO::ImageSpec hints = readAsStored();
+  const auto input = OIIO::ImageInput::open(path.string(), &hints);
+  if (!input) fail(ExitCode::Input, "{}: cannot be read: {}", path.string(), oneLine(OIIO::geterror()));
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1 || spec.deep)
+    fail(ExitCode::Input, "{}: is not a flat two-dimensional image", path.string());
+  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
+  if (pixels > maxImageValues / static_cast<uint64_t>(spec.nchannels) ||
+      pixels / maxPixelsPerByte > fileBytes)
+    fail(ExitCode::Input, "{}: {} x {} x {} values are too many for this file: it is damaged or too large",
+         path.string(), spec.width, spec.height, spec.nchannels);
+
+  Image image(spec.width, spec.height, spec.nchannels);
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()))
+    fail(ExitCode::Input, "{}: is damaged: {}: write it again", path.string(), oneLine(input->geterror()));
+  return image;
+}
+
+void writeImage(const fs::path& path, const Image& image, const Metadata& metadata, bool fullFloat) {
+  base::check(image.channels == 3 || image.channels == 4, "an image to write has 3 or 4 channels");
+  if (endingOf(path) == Ending::Exr)
+    writeExr(path, image, metadata, fullFloat);
+  else
+    writePng(path, image, metadata);
+}
+
+void checkImageName(const fs::path& path) {
+  endingOf(path);
+}
+
+Picture decodePicture(std::span<const std::byte> bytes, const std::string& name) {
+  const char* format = pictureFormat(bytes);
+  if (!format) fail(ExitCode::Input, "{}: is not a PNG or JPEG picture: convert it", name);
+  if (std::strcmp(format, "png") == 0 && !pngIsWhole(bytes))
+    fail(ExitCode::Input, "{}: is a PNG picture that is cut off: write it again", name);
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+  OIIO::Filesystem::IOProxy* source = &memory;
+  OIIO::ImageSpec hints = readAsStored();
+  hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &source);
+  const auto input = OIIO::ImageInput::create(format);
+  if (!input) fail(ExitCode::Input, "{}: cannot be decoded: {}", name, oneLine(OIIO::geterror()));
+  OIIO::ImageSpec spec;
+  if (!input->open(format, spec, hints))
+    fail(ExitCode::Input, "{}: is a damaged picture: {}: write it again", name, oneLine(input->geterror()));
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels < 1 || spec.nchannels > 4)
+    fail(ExitCode::Input, "{}: is a picture without pixels or with more than 4 channels: convert it", name);
+  const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
+  if (spec.width > maxPictureSide || spec.height > maxPictureSide || pixels / maxPixelsPerByte > bytes.size())
+    fail(ExitCode::Input, "{}: {} x {} pixels are too many: at most {} on a side, and no more than it holds",
+         name, spec.width, spec.height, maxPictureSide);
+
+  std::vector<uint8_t> stored(pixels * static_cast<uint64_t>(spec.nchannels));
+  const bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, stored.data());
+  if (!read || input->has_error())  // a cut JPEG is read in grey, and only noted
+    fail(ExitCode::Input, "{}: is a damaged picture: {}: write it again", name, oneLine(input->geterror()));
+  return {spec.width, spec.height, expandToRgba(stored, spec.nchannels)};
+}
+
+}  // namespace sfumato::image
+
+#else
+
+namespace sfumato::image {
+namespace {
+
+[[noreturn]] void failWithoutOpenImageIO(const std::string& name) {
+  base::fail(base::ExitCode::Input,
+             "{}: this build reads and writes no images: build with OpenImageIO (SFUMATO_OPENIMAGEIO=ON)",
+             name);
+}
+
+}  // namespace
+
+Image readImage(const std::filesystem::path& path) {
+  failWithoutOpenImageIO(path.string());
+}
+
+void writeImage(const std::filesystem::path& path, const Image&, const Metadata&, bool) {
+  failWithoutOpenImageIO(path.string());
+}
+
+void checkImageName(const std::filesystem::path& path) {
+  failWithoutOpenImageIO(path.string());
+}
+
+Picture decodePicture(std::span<const std::byte>, const std::string& name) {
+  failWithoutOpenImageIO(name);
+}
+
+}  // namespace sfumato::image
+
+#endif

@@ -1,0 +1,54 @@
+// Light linked lists (Lindbeck 2015, section 2.1): for every cell of 4x4 pixels, the point and spot lights
+// that may reach something in it, with their front and back depth there, sorted by front depth. Directional
+// lights stand outside the lists. The lists are conservative: every light that reaches any point seen in a
+// cell is in it.
+#pragma once
+
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/device.h"
+#include "gl/program.h"
+#include "lists/lists_gpu.h"
+#include "scene/scene.h"
+
+namespace sfumato::lights {
+
+// Where the shadow of a light is found: faces of the deep shadow maps. One face or six; none: first is -1.
+struct ShadowFaces {
+  int first = -1;
+  int count = 0;
+};
+
+struct LightListInputs {
+  const std::vector<scene::Light>& lights;
+  const std::vector<ShadowFaces>& shadows;  // of each light, same order
+  const gl::Buffer& view;                   // shared::ViewParams of the camera
+  int width = 0;                            // of the image, pixels
+  int height = 0;
+};
+
+class LightLists {
+ public:
+  static constexpr int cellSide = 4;  // pixels; shaders/lights/light_lists.glsl has the same
+
+  // Uploads the lights and builds the lists. Costs 8 bytes a cell and 16 a node.
+  LightLists(gl::Device& device, const LightListInputs& inputs);
+
+  int directionalLights() const { return directional_; }
+  const lists::ListStatistics& statistics() const { return statistics_; }
+  const lists::Lists& lists() const { return lists_; }
+  // Scene indices of the lights by the numbers that the lists hold.
+  const std::vector<int>& order() const { return order_; }
+  // For shaders that include shaders/lights/light_lists.glsl.
+  void bind() const;
+
+ private:
+  std::vector<int> order_;
+  int directional_ = 0;
+  gl::Buffer lights_;
+  lists::Lists lists_;
+  lists::ListStatistics statistics_;
+};
+
+}  // namespace sfumato::lights

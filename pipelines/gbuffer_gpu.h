@@ -1,0 +1,28 @@
+// The opaque surfaces that the camera sees.
+#pragma once
+
+#include "gl/buffer.h"
+#include "gl/device.h"
+#include "gl/texture.h"
+#include "scene/geometry_gpu.h"
+
+namespace sfumato::pipelines {
+
+// Words 0-3 and 4-7 of shared::PackedSurface, and depth in metres along -Z of the view (3e38: nothing).
+// 36 bytes a pixel.
+struct GBuffer {
+  gl::Texture surface0;
+  gl::Texture surface1;
+  gl::Texture depth;
+};
+
+struct GBufferInputs {
+  const scene::GeometryGpu& geometry;
+  const gl::Buffer& view;  // shared::ViewParams
+  int width = 0;
+  int height = 0;
+};
+
+GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs);
+
+}  // namespace sfumato::pipelines

@@ -1,0 +1,22 @@
+// What a frame may cost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sfumato::pipelines {
+
+struct Quality {
+  int shadowResolution = 1024;        // texels a side of a deep shadow map
+  double stepVoxels = 1.0;            // of every march through smoke, in voxels of the finest volume
+  double shadowError = 1.0 / 512;     // bound of the error of a deep shadow map's transmittance
+  double throughputCutoff = 1e-3;     // a ray ends where less than this of what is behind would be seen
+  bool bilinearSmokeShadows = false;  // four texels instead of the nearest for every lookup in smoke
+};
+
+// "draft", "medium", "high" or "reference".
+const std::vector<std::string>& qualityNames();
+// Throws Usage for another name.
+Quality qualityNamed(const std::string& name);
+
+}  // namespace sfumato::pipelines

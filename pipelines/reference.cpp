@@ -1,0 +1,333 @@
+#include "pipelines/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "pipelines/reference_bvh.h"
+#include "pipelines/reference_shading.h"
+#include "volumes/reference_march.h"
+
+namespace sfumato::pipelines {
+
+namespace {
+
+using scene::Camera;
+using scene::Instance;
+using scene::Light;
+using scene::Material;
+using scene::Mesh;
+using scene::Scene;
+using scene::Vertex;
+using volumes::Medium;
+
+constexpr double startOffset = 1e-6;  // of the scene's extent: how far off its surface a shadow ray starts
+constexpr double negligible = 1e-9;   // transmittance that is not followed any further
+
+bool isNegligible(const glm::dvec3& transmittance) {
+  return std::max({transmittance.x, transmittance.y, transmittance.z}) < negligible;
+}
+
+// The instances' triangles in world space, and what their corners say.
+class Geometry {
+ public:
+  explicit Geometry(const Scene& scene) : scene_(scene), bvh_(collectTriangles()) {}
+
+  const Bvh& bvh() const { return bvh_; }
+
+  const Material& material(const Hit& hit) const {
+    return scene_.materials[static_cast<size_t>(mesh(hit).material)];
+  }
+
+  // Whether a camera ray sees the face that it hit: front faces, counter-clockwise in the world, and both of
+  // doubleSided materials.
+  bool isSeen(const Hit& hit, const glm::dvec3& direction) const {
+    return material(hit).doubleSided || glm::dot(windingNormal(hit), direction) < 0;
+  }
+
+  SurfacePoint pointAt(const Ray& ray, const Hit& hit) const {
+    const auto interpolate = [&](auto attribute) {  // exact where the corners agree
+      const auto first = attribute(vertex(hit, 0));
+      return first + hit.weights[1] * (attribute(vertex(hit, 1)) - first) +
+             hit.weights[2] * (attribute(vertex(hit, 2)) - first);
+    };
+    const glm::dmat3 worldFromObject(instance(hit).worldFromObject);
+    const glm::dvec3 winding = windingNormal(hit);
+
+    SurfacePoint point;
+    point.position = ray.at(hit.t);
+    point.geometricNormal = glm::normalize(glm::dot(winding, ray.direction) > 0 ? -winding : winding);
+    const glm::dvec3 normal = glm::transpose(glm::inverse(worldFromObject)) *
+                              interpolate([](const Vertex& v) { return glm::dvec3(v.normal); });
+    const double length = glm::length(normal);
+    point.normal = length > 0 && std::isfinite(length) ? normal / length : point.geometricNormal;
+    const glm::dvec3 tangent = interpolate([](const Vertex& v) { return glm::dvec3(v.tangent); });
+    point.tangent = glm::dvec4(worldFromObject * tangent, vertex(hit, 0).tangent.w);
+    point.uv = {interpolate([](const Vertex& v) { return glm::dvec2(v.uv0); }),
+                interpolate([](const Vertex& v) { return glm::dvec2(v.uv1); })};
+    point.colour = interpolate([](const Vertex& v) { return glm::dvec4(v.colour); });
+    return point;
+  }
+
+ private:
+  struct Source {
+    uint32_t instance;
+    uint32_t firstIndex;  // in the mesh's indices
+  };
+
+  std::vector<Triangle> collectTriangles() {
+    std::vector<Triangle> triangles;
+    for (uint32_t i = 0; i < scene_.instances.size(); ++i) {
+      const Instance& instance = scene_.instances[i];
+      const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
+      for (uint32_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
+        const auto corner = [&](uint32_t k) {
+          const glm::dvec3 p(mesh.vertices[mesh.indices[first + k]].position);
+          return glm::dvec3(instance.worldFromObject * glm::dvec4(p, 1));
+        };
+        triangles.push_back({corner(0), corner(1), corner(2)});
+        sources_.push_back({i, first});
+      }
+    }
+    return triangles;
+  }
+
+  const Instance& instance(const Hit& hit) const { return scene_.instances[sources_[hit.triangle].instance]; }
+  const Mesh& mesh(const Hit& hit) const { return scene_.meshes[static_cast<size_t>(instance(hit).mesh)]; }
+  const Vertex& vertex(const Hit& hit, int corner) const {
+    const Mesh& m = mesh(hit);
+    return m.vertices[m.indices[sources_[hit.triangle].firstIndex + static_cast<uint32_t>(corner)]];
+  }
+
+  // Towards where the corners are seen counter-clockwise; not of unit length.
+  glm::dvec3 windingNormal(const Hit& hit) const {
+    const Triangle& p = bvh_.triangle(hit.triangle);
+    return glm::cross(p[1] - p[0], p[2] - p[0]);
+  }
+
+  const Scene& scene_;
+  std::vector<Source> sources_;  // filled before bvh_ is made
+  Bvh bvh_;
+};
+
+// Follows light backwards from the camera.
+class Tracer {
+ public:
+  Tracer(const Scene& scene, std::span<const Medium> media, const ReferenceOptions& options)
+      : scene_(scene), media_(media), options_(options), geometry_(scene), bounds_(geometry_.bvh().bounds()) {
+    surfaceOffset_ = bounds_.empty() ? 0 : startOffset * glm::distance(bounds_.low, bounds_.high);
+    for (const Medium& medium : media_) addBox(medium);
+  }
+
+  // Radiance that arrives along the ray from what is between tMin and tMax.
+  glm::dvec3 radiance(const Ray& ray, double tMin, double tMax) const {
+    glm::dvec3 radiance(0);
+    glm::dvec3 transmittance(1);
+    double t = tMin;
+    for (const Hit& hit : visibleHits(ray, tMin, tMax)) {
+      march(ray, t, hit.t, radiance, transmittance);
+      t = hit.t;
+      const SurfacePoint point = geometry_.pointAt(ray, hit);
+      const Coverage coverage = coverageAt(scene_, geometry_.material(hit), point);
+      radiance += transmittance * leaving(ray, hit, point, coverage);
+      transmittance *= coverage.passing();
+      if (isNegligible(transmittance)) return radiance;
+    }
+    march(ray, t, tMax, radiance, transmittance);
+    return radiance;
+  }
+
+ private:
+  void addBox(const Medium& medium) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      const glm::dvec3 pIndex = glm::dvec3(medium.grid.origin) + side * glm::dvec3(medium.grid.size - 1);
+      bounds_.add(glm::dvec3(medium.worldFromIndex * glm::dvec4(pIndex, 1)));
+    }
+  }
+
+  // The surfaces that the camera sees, from near to far, none behind the first opaque one.
+  std::vector<Hit> visibleHits(const Ray& ray, double tMin, double tMax) const {
+    std::vector<Hit> hits;
+    const auto visit = [&](const Hit& hit) {
+      if (!geometry_.isSeen(hit, ray.direction)) return tMax;
+      hits.push_back(hit);
+      const Coverage coverage = coverageAt(scene_, geometry_.material(hit), geometry_.pointAt(ray, hit));
+      if (coverage.passing() == glm::dvec3(0)) tMax = std::min(tMax, hit.t);
+      return tMax;
+    };
+    geometry_.bvh().forEachHit(ray, tMin, tMax, std::ref(visit));
+    std::ranges::sort(hits, {}, [](const Hit& hit) { return std::pair(hit.t, hit.triangle); });
+    return hits;
+  }
+
+  // Radiance that a surface sends towards the viewer: reflected and its own.
+  glm::dvec3 leaving(const Ray& ray, const Hit& hit, const SurfacePoint& point,
+                     const Coverage& coverage) const {
+    const Reflector reflector = reflectorAt(scene_, geometry_.material(hit), point, coverage);
+    glm::dvec3 radiance = reflector.emitted;
+    for (const Light& light : scene_.lights) {
+      const Illumination arriving = illuminate(light, point.position);
+      if (glm::dot(point.geometricNormal, arriving.toLight) <= 0) continue;
+      const double cosine = std::max(glm::dot(reflector.normal, arriving.toLight), 0.0);
+      const glm::dvec3 reflected =
+          brdf(reflector, -ray.direction, arriving.toLight) * cosine * arriving.irradiance;
+      if (reflected == glm::dvec3(0)) continue;
+      const glm::dvec3 start = point.position + surfaceOffset_ * point.geometricNormal;
+      radiance += reflected * shadowTransmittance(light, start, illuminate(light, start));
+    }
+    return radiance;
+  }
+
+  // The part of a light that gets to a point through all surfaces and media.
+  glm::dvec3 shadowTransmittance(const Light& light, const glm::dvec3& pWorld,
+                                 const Illumination& arriving) const {
+    if (!light.castsShadow) return glm::dvec3(1);
+    const Ray ray{pWorld, arriving.toLight};
+    const double distance = std::isfinite(arriving.distance) ? arriving.distance : distanceOutOf(pWorld);
+    glm::dvec3 transmittance(1);
+    const auto visit = [&](const Hit& hit) {
+      transmittance *= coverageAt(scene_, geometry_.material(hit), geometry_.pointAt(ray, hit)).passing();
+      return isNegligible(transmittance) ? -scene::infinity : distance;
+    };
+    geometry_.bvh().forEachHit(ray, 0, distance, std::ref(visit));
+    if (isNegligible(transmittance)) return glm::dvec3(0);
+    return transmittance *
+           std::exp(-volumes::opticalDepth(media_, pWorld, ray.at(distance), options_.shadowStepVoxels));
+  }
+
+  // A distance from the point in any direction beyond which there is nothing.
+  double distanceOutOf(const glm::dvec3& pWorld) const {
+    if (bounds_.empty()) return 0;
+    const glm::dvec3 centre = (bounds_.low + bounds_.high) / 2.0;
+    return glm::distance(pWorld, centre) + glm::distance(bounds_.low, bounds_.high);
+  }
+
+  // Single scattering between tMin and tMax, and what the media there let through. The ray is cut where it
+  // enters or leaves a medium's box, so that steps never straddle a border.
+  void march(const Ray& ray, double tMin, double tMax, glm::dvec3& radiance,
+             glm::dvec3& transmittance) const {
+    struct Stay {
+      const Medium* medium;
+      double enter;
+      double leave;
+    };
+    std::vector<Stay> stays;
+    std::vector<double> cuts;
+    for (const Medium& medium : media_) {
+      double enter = tMin;
+      double leave = tMax;
+      if (!volumes::clipToMedium(medium, ray.origin, ray.direction, enter, leave) || enter == leave) continue;
+      stays.push_back({&medium, enter, leave});
+      cuts.insert(cuts.end(), {enter, leave});
+    }
+    std::ranges::sort(cuts);
+    std::vector<const Medium*> inside;
+    for (size_t i = 1; i < cuts.size(); ++i) {
+      inside.clear();
+      for (const Stay& stay : stays)
+        if (stay.enter <= cuts[i - 1] && cuts[i] <= stay.leave) inside.push_back(stay.medium);
+      if (!inside.empty() && cuts[i] > cuts[i - 1])
+        marchInside(inside, ray, cuts[i - 1], cuts[i], radiance, transmittance);
+    }
+  }
+
+  void marchInside(std::span<const Medium* const> media, const Ray& ray, double tMin, double tMax,
+                   glm::dvec3& radiance, glm::dvec3& transmittance) const {
+    double voxel = scene::infinity;
+    for (const Medium* medium : media) voxel = std::min(voxel, volumes::voxelSize(medium->worldFromIndex));
+    const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * voxel));
+    const double length = (tMax - tMin) / steps;
+    std::vector<double> extinctions;  // of each medium
+    for (double step = 0; step < steps && !isNegligible(transmittance); ++step) {
+      const glm::dvec3 p = ray.at(tMin + (step + 0.5) * length);
+      extinctions.clear();
+      double extinction = 0;
+      for (const Medium* medium : media) {
+        extinctions.push_back(volumes::extinctionAt(*medium, p));
+        extinction += extinctions.back();
+      }
+      if (extinction <= 0) continue;
+      const double passing = std::exp(-extinction * length);
+      radiance +=
+          transmittance * (1 - passing) / extinction * scattered(media, extinctions, p, ray.direction);
+      transmittance *= passing;
+    }
+  }
+
+  // Light scattered at a point of the media to where the ray comes from, per metre.
+  glm::dvec3 scattered(std::span<const Medium* const> media, std::span<const double> extinctions,
+                       const glm::dvec3& pWorld, const glm::dvec3& direction) const {
+    glm::dvec3 sum(0);
+    for (const Light& light : scene_.lights) {
+      const Illumination arriving = illuminate(light, pWorld);
+      if (arriving.irradiance == glm::dvec3(0)) continue;
+      const double cosine = glm::dot(arriving.toLight, direction);  // both the other way: travelling light
+      glm::dvec3 turned(0);
+      for (size_t i = 0; i < media.size(); ++i)
+        turned += extinctions[i] * media[i]->albedo * volumes::phaseHenyeyGreenstein(cosine, media[i]->g);
+      sum += turned * arriving.irradiance * shadowTransmittance(light, pWorld, arriving);
+    }
+    return sum;
+  }
+
+  const Scene& scene_;
+  const std::span<const Medium> media_;
+  const ReferenceOptions options_;
+  const Geometry geometry_;
+  Box bounds_;                // of surfaces and media
+  double surfaceOffset_ = 0;  // metres
+};
+
+// What the camera sees through a point of the picture: x to the right and y up, -1 to 1 across it.
+glm::dvec3 trace(const Tracer& tracer, const Camera& camera, double x, double y, double aspect) {
+  const auto world = [&](const glm::dvec4& view) { return glm::dvec3(camera.worldFromView * view); };
+  if (camera.orthographic) {
+    const glm::dvec4 origin(x * camera.yMagnitude * aspect, y * camera.yMagnitude, 0, 1);
+    return tracer.radiance({world(origin), world({0, 0, -1, 0})}, camera.nearDistance, camera.farDistance);
+  }
+  const double slope = std::tan(camera.yfov / 2);
+  const glm::dvec3 view(x * slope * aspect, y * slope, -1);
+  const double tPerDepth = glm::length(view);
+  const Ray ray{world({0, 0, 0, 1}), world(glm::dvec4(view / tPerDepth, 0))};
+  return tracer.radiance(ray, camera.nearDistance * tPerDepth, camera.farDistance * tPerDepth);
+}
+
+}  // namespace
+
+image::Image renderReference(const Scene& scene, const Camera& camera, std::span<const Medium> media,
+                             const ReferenceOptions& options) {
+  base::check(options.stepVoxels > 0 && options.shadowStepVoxels > 0 && options.samples > 0,
+              "the reference's steps and samples are positive");
+  const Tracer tracer(scene, media, options);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const int columns = options.width * options.samples;
+  const int rows = options.height * options.samples;
+  const auto pixel = [&](int px, int py) {
+    glm::dvec3 sum(0);
+    for (int row = py * options.samples; row < (py + 1) * options.samples; ++row)
+      for (int column = px * options.samples; column < (px + 1) * options.samples; ++column)
+        sum += trace(tracer, camera, 2 * (column + 0.5) / columns - 1, 1 - 2 * (row + 0.5) / rows, aspect);
+    return sum / static_cast<double>(options.samples * options.samples);
+  };
+
+  image::Image image(options.width, options.height, 3);
+  std::optional<base::Progress> progress;
+  if (options.showProgress) progress.emplace("reference", options.height);
+  base::parallelFor(options.height, [&](long y) {
+    for (int x = 0; x < options.width; ++x) {
+      const glm::vec3 value(pixel(x, static_cast<int>(y)));
+      std::copy_n(&value.x, 3, image.pixel(x, static_cast<int>(y)));
+    }
+    if (progress) progress->advance();
+  });
+  return image;
+}
+
+}  // namespace sfumato::pipelines

@@ -1,0 +1,157 @@
+#include "scene/geometry_gpu.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <numeric>
+
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/geometry.h"
+
+namespace sfumato::scene {
+namespace {
+
+constexpr gl::VertexAttribute vertexAttributes[] = {
+    {0, 3, offsetof(Vertex, position)}, {1, 3, offsetof(Vertex, normal)}, {2, 4, offsetof(Vertex, tangent)},
+    {3, 2, offsetof(Vertex, uv0)},      {4, 2, offsetof(Vertex, uv1)},    {5, 4, offsetof(Vertex, colour)}};
+constexpr int drawNumberLocation = 6;
+
+// Every texture use of a material with its unit and whether its RGB is sRGB.
+struct UsedTexture {
+  const TextureUse& use;
+  int unit;
+  bool srgb;
+};
+
+std::array<UsedTexture, 7> usedTextures(const Material& m) {
+  return {{{m.baseColourTexture, TEXTURE_BASE_COLOUR, true},
+           {m.metallicRoughnessTexture, TEXTURE_METALLIC_ROUGHNESS, false},
+           {m.normalTexture, TEXTURE_NORMAL, false},
+           {m.emissiveTexture, TEXTURE_EMISSIVE, true},
+           {m.transmissionTexture, TEXTURE_TRANSMISSION, false},
+           {m.specularTexture, TEXTURE_SPECULAR, false},
+           {m.specularColourTexture, TEXTURE_SPECULAR_COLOUR, true}}};
+}
+
+shared::MaterialData materialData(const Material& material) {
+  shared::MaterialData data{};
+  data.baseColour = material.baseColour;
+  data.emissive = glm::vec4(material.emissive, material.alphaCutoff);
+  data.specularColour = glm::vec4(material.specularColour, material.specular);
+  data.factors = {material.metallic, material.roughness, material.normalScale, material.transmission};
+  if (material.alphaMode == AlphaMode::Mask) data.flags.x |= MATERIAL_MASK;
+  if (material.alphaMode == AlphaMode::Blend) data.flags.x |= MATERIAL_BLEND;
+  if (material.normalTexture.texture >= 0) data.flags.x |= MATERIAL_NORMAL_MAP;
+  for (const UsedTexture& used : usedTextures(material)) data.flags.y |= used.use.uvSet << used.unit;
+  return data;
+}
+
+gl::Texture uploadTexture(gl::Device& device, const Texture& texture, bool srgb) {
+  gl::TextureDescription description;
+  description.format = srgb ? gl::Format::SRGB8A8 : gl::Format::RGBA8;
+  description.size = {texture.width, texture.height, 1};
+  description.filter = texture.nearest ? gl::Filter::Nearest : gl::Filter::LinearMipmap;
+  description.wrapS = static_cast<gl::Wrapping>(texture.wrapS);
+  description.wrapT = static_cast<gl::Wrapping>(texture.wrapT);
+  return gl::Texture(device, "textures", description, std::as_bytes(std::span(texture.rgba)));
+}
+
+}  // namespace
+
+GeometryGpu::GeometryGpu(gl::Device& device, const Scene& scene) {
+  uploadMeshes(device, scene);
+  uploadMaterials(device, scene);
+}
+
+void GeometryGpu::uploadMeshes(gl::Device& device, const Scene& scene) {
+  std::vector<Vertex> vertices;
+  std::vector<uint32_t> indices;
+  std::vector<gl::IndexedRange> meshRanges;
+  for (const Mesh& mesh : scene.meshes) {
+    meshRanges.push_back(
+        {.firstIndex = indices.size(), .indices = mesh.indices.size(), .firstVertex = vertices.size()});
+    vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+  }
+
+  // Instances of one mesh stand together, so that one draw call draws them all.
+  std::vector<size_t> order(scene.instances.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return scene.instances[a].mesh < scene.instances[b].mesh; });
+  std::vector<shared::DrawData> drawData;
+  for (const size_t number : order) {
+    const Instance& instance = scene.instances[number];
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    if (mesh.indices.empty()) continue;
+    std::vector<Draw>& list =
+        scene.materials[static_cast<size_t>(mesh.material)].translucent() ? translucent_ : opaque_;
+    gl::IndexedRange range = meshRanges[static_cast<size_t>(instance.mesh)];
+    const bool sameMesh = !list.empty() && list.back().range.firstIndex == range.firstIndex;
+    if (sameMesh) {
+      ++list.back().range.instances;
+    } else {
+      range.firstInstance = drawData.size();
+      list.push_back({range, mesh.material});
+    }
+    shared::DrawData data{};
+    data.worldFromObject = instance.worldFromObject;
+    data.normalFromObject = glm::mat4(glm::mat3(glm::transpose(glm::inverse(instance.worldFromObject))));
+    data.indices = {mesh.material, static_cast<int>(triangles_), 0, 0};
+    drawData.push_back(data);
+    triangles_ += mesh.indices.size() / 3;
+  }
+
+  vertices_ = gl::Buffer(device, "vertices", std::span<const Vertex>(vertices));
+  indices_ = gl::Buffer(device, "indices", std::span<const uint32_t>(indices));
+  drawData_ = gl::Buffer(device, "draws", std::span<const shared::DrawData>(drawData));
+  vertexArray_ = gl::VertexArray(device, vertices_, sizeof(Vertex), vertexAttributes, indices_,
+                                 drawNumberLocation, drawData.size());
+}
+
+void GeometryGpu::uploadMaterials(gl::Device& device, const Scene& scene) {
+  const Texture white{
+      .name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}, .nearest = true};
+  textures_.push_back(uploadTexture(device, white, false));
+  std::map<std::pair<int, bool>, int> uploaded;  // by texture and whether it is sRGB
+  std::vector<shared::MaterialData> data;
+  for (const Material& material : scene.materials) {
+    data.push_back(materialData(material));
+    MaterialTextures& textures = materials_.emplace_back();
+    textures.doubleSided = material.doubleSided;
+    for (const UsedTexture& used : usedTextures(material)) {
+      if (used.use.texture < 0) continue;
+      const auto [entry, isNew] =
+          uploaded.try_emplace({used.use.texture, used.srgb}, static_cast<int>(textures_.size()));
+      if (isNew)
+        textures_.push_back(
+            uploadTexture(device, scene.textures[static_cast<size_t>(used.use.texture)], used.srgb));
+      textures.unit[used.unit] = entry->second;
+    }
+  }
+  materialData_ = gl::Buffer(device, "materials", std::span<const shared::MaterialData>(data));
+}
+
+void GeometryGpu::bindTextures(int material) const {
+  const MaterialTextures& textures = materials_[static_cast<size_t>(material)];
+  for (unsigned unit = 0; unit < std::size(textures.unit); ++unit)
+    textures_[static_cast<size_t>(textures.unit[unit])].bind(unit);
+}
+
+void GeometryGpu::draw(Layer layer, bool cullBackFaces) const {
+  drawData_.bindStorage(STORAGE_DRAWS);
+  materialData_.bindStorage(STORAGE_MATERIALS);
+  int boundMaterial = -1;
+  for (const Draw& draw : draws(layer)) {
+    if (draw.material != boundMaterial) {
+      boundMaterial = draw.material;
+      bindTextures(draw.material);
+      const bool cull = cullBackFaces && !materials_[static_cast<size_t>(draw.material)].doubleSided;
+      gl::setCull(cull ? gl::Cull::Back : gl::Cull::None);
+    }
+    gl::drawIndexed(vertexArray_, draw.range);
+  }
+}
+
+}  // namespace sfumato::scene

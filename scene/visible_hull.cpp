@@ -1,0 +1,142 @@
+#include "scene/visible_hull.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sfumato::scene {
+
+using glm::dmat4;
+using glm::dvec3;
+using glm::dvec4;
+
+namespace {
+
+using Polygon = std::vector<dvec3>;
+
+// The part of a polygon on the side of a plane where dot(plane, (p, 1)) >= 0 (Sutherland and Hodgman 1974).
+Polygon clip(const Polygon& polygon, const dvec4& plane) {
+  const auto height = [&](const dvec3& p) { return glm::dot(plane, dvec4(p, 1.0)); };
+  Polygon kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const dvec3& a = polygon[i];
+    const dvec3& b = polygon[(i + 1) % polygon.size()];
+    const double ha = height(a);
+    const double hb = height(b);
+    if (ha >= 0) kept.push_back(a);
+    if ((ha >= 0) != (hb >= 0)) kept.push_back(a + (b - a) * (ha / (ha - hb)));
+  }
+  return kept;
+}
+
+// Planes of the frustum in world space, their positive sides inside.
+std::vector<dvec4> frustumPlanes(const Camera& camera, double aspect) {
+  std::vector<dvec4> planes;
+  const double y = camera.orthographic ? camera.yMagnitude : std::tan(camera.yfov * 0.5);
+  const double x = y * aspect;
+  for (const double side : {1.0, -1.0}) {
+    if (camera.orthographic) {
+      planes.emplace_back(side, 0, 0, x);
+      planes.emplace_back(0, side, 0, y);
+    } else {
+      planes.emplace_back(side, 0, -x, 0);
+      planes.emplace_back(0, side, -y, 0);
+    }
+  }
+  planes.emplace_back(0, 0, -1, -camera.nearDistance);
+  if (std::isfinite(camera.farDistance)) planes.emplace_back(0, 0, 1, camera.farDistance);
+  const dmat4 planeFromView = glm::transpose(glm::inverse(camera.worldFromView));
+  for (dvec4& plane : planes) plane = planeFromView * plane;
+  return planes;
+}
+
+// Of the near plane, and of the far plane where there is one.
+std::vector<dvec3> frustumCorners(const Camera& camera, double aspect) {
+  std::vector<dvec3> result;
+  for (const double depth : {camera.nearDistance, camera.farDistance}) {
+    if (!std::isfinite(depth)) continue;
+    const double y = camera.orthographic ? camera.yMagnitude : depth * std::tan(camera.yfov * 0.5);
+    for (int i = 0; i < 4; ++i) {
+      const dvec4 pView((i & 1 ? y : -y) * aspect, i & 2 ? y : -y, -depth, 1);
+      result.emplace_back(camera.worldFromView * pView);
+    }
+  }
+  return result;
+}
+
+std::array<dvec3, 8> corners(const dmat4& worldFromUnit) {
+  std::array<dvec3, 8> result;
+  for (int i = 0; i < 8; ++i)
+    result[static_cast<size_t>(i)] = dvec3(worldFromUnit * dvec4(i & 1, i >> 1 & 1, i >> 2 & 1, 1));
+  return result;
+}
+
+void appendClipped(Polygon polygon, const std::vector<dvec4>& planes, std::vector<dvec3>& points) {
+  for (const dvec4& plane : planes) {
+    if (polygon.empty()) return;
+    polygon = clip(polygon, plane);
+  }
+  points.insert(points.end(), polygon.begin(), polygon.end());
+}
+
+}  // namespace
+
+std::vector<dvec3> visiblePoints(const Scene& scene, const std::vector<dmat4>& worldFromUnit,
+                                 const Camera& camera, double aspect) {
+  const std::vector<dvec4> planes = frustumPlanes(camera, aspect);
+  std::vector<dvec3> points;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    const auto world = [&](size_t index) {
+      return dvec3(instance.worldFromObject * dvec4(dvec3(mesh.vertices[mesh.indices[index]].position), 1.0));
+    };
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+      appendClipped({world(i), world(i + 1), world(i + 2)}, planes, points);
+  }
+  constexpr size_t quads[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                  {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+  for (const dmat4& box : worldFromUnit) {
+    const auto corner = corners(box);
+    for (const auto& quad : quads)
+      appendClipped({corner[quad[0]], corner[quad[1]], corner[quad[2]], corner[quad[3]]}, planes, points);
+    // Corners of the frustum inside the box bound what is seen of it, too.
+    const dmat4 unitFromWorld = glm::inverse(box);
+    for (const dvec3& p : frustumCorners(camera, aspect)) {
+      const dvec3 unit(unitFromWorld * dvec4(p, 1.0));
+      if (glm::all(glm::greaterThanEqual(unit, dvec3(0))) && glm::all(glm::lessThanEqual(unit, dvec3(1))))
+        points.push_back(p);
+    }
+  }
+  return points;
+}
+
+std::vector<dvec3> boundingPoints(const Scene& scene, const std::vector<dmat4>& worldFromUnit) {
+  std::vector<dvec3> points;
+  const auto append = [&](const dmat4& box) {
+    const auto corner = corners(box);
+    points.insert(points.end(), corner.begin(), corner.end());
+  };
+  struct Box {
+    dvec3 low{infinity};
+    dvec3 high{-infinity};
+  };
+  std::vector<Box> boxes(scene.meshes.size());
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    for (const Vertex& vertex : scene.meshes[i].vertices) {
+      boxes[i].low = glm::min(boxes[i].low, dvec3(vertex.position));
+      boxes[i].high = glm::max(boxes[i].high, dvec3(vertex.position));
+    }
+  }
+  for (const Instance& instance : scene.instances) {
+    const Box& box = boxes[static_cast<size_t>(instance.mesh)];
+    if (box.low.x > box.high.x) continue;
+    dmat4 objectFromUnit(1.0);
+    for (int axis = 0; axis < 3; ++axis) objectFromUnit[axis][axis] = box.high[axis] - box.low[axis];
+    objectFromUnit[3] = dvec4(box.low, 1.0);
+    append(instance.worldFromObject * objectFromUnit);
+  }
+  for (const dmat4& box : worldFromUnit) append(box);
+  return points;
+}
+
+}  // namespace sfumato::scene

@@ -1,0 +1,117 @@
+// How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/deepshadow.h"
+
+layout(std430, binding = STORAGE_SHADOW_FACES) readonly buffer Faces {
+  ShadowFace shadowFaces[];
+};
+// As buffer textures, because all maps together may be larger than one storage block.
+layout(binding = TEXTURE_SHADOW_TEXELS) uniform usamplerBuffer shadowTexels;  // ShadowTexel
+layout(binding = TEXTURE_SHADOW_KNOTS) uniform samplerBuffer shadowKnots;     // ShadowKnot
+
+// Optical depth from the light to `depth` in the run of a texel: the last knot at or before it is found by
+// bisection, tau is linear from there to the next one.
+vec3 opticalDepthAt(uint first, uint count, float depth) {
+  uint low = 0u;
+  uint high = count;  // knots [0, low) are at or before depth, knots [high, count) are behind it
+  while (low < high) {
+    uint middle = (low + high) >> 1;
+    if (texelFetch(shadowKnots, int(first + middle)).x <= depth) low = middle + 1u;
+    else high = middle;
+  }
+  if (low == 0u) return vec3(0.0);
+  vec4 before = texelFetch(shadowKnots, int(first + low - 1u));
+  if (low == count) return before.yzw;
+  vec4 after = texelFetch(shadowKnots, int(first + low));
+  return mix(before.yzw, after.yzw, (depth - before.x) / (after.x - before.x));
+}
+
+ShadowTexel shadowTexel(uint number) {
+  uvec3 words = texelFetch(shadowTexels, int(number)).xyz;
+  return ShadowTexel(words.x, words.y, uintBitsToFloat(words.z));
+}
+
+// Through what lets light pass, opaque surfaces aside.
+vec3 runTransmittance(ShadowTexel texel, float depth) {
+  return texel.count == 0u ? vec3(1.0) : exp(-opticalDepthAt(texel.first, texel.count, depth));
+}
+
+vec3 texelTransmittance(uint number, float depth) {
+  ShadowTexel texel = shadowTexel(number);
+  return depth > texel.opaqueDepth ? vec3(0.0) : runTransmittance(texel, depth);
+}
+
+// Of a light's `faces` (1, or the 6 of a cube: +x -x +y -y +z -z) the one that sees a point `toPoint` away from it.
+int faceTowards(int faces, vec3 toPoint) {
+  if (faces == 1) return 0;
+  vec3 size = abs(toPoint);
+  int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  return axis * 2 + (toPoint[axis] < 0.0 ? 1 : 0);
+}
+
+// Texel position (centres at .5) and depth of a point in a face.
+vec3 placeInFace(ShadowFace face, vec3 pWorld) {
+  vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
+  float depth = -p.z;
+  vec2 xy = face.texels.z != 0 ? p.xy / max(depth, 1e-20) : p.xy;
+  return vec3(xy * face.projection.xy + face.projection.zw, depth);
+}
+
+uint texelNumber(ShadowFace face, ivec2 texel) {
+  texel = clamp(texel, ivec2(0), ivec2(face.texels.y - 1));
+  return uint(face.texels.x + texel.y * face.texels.y + texel.x);
+}
+
+// Of a point in smoke: the nearest texel, or the four around it when `bilinear`.
+vec3 shadowInSmoke(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, bool bilinear) {
+  ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
+  vec3 place = placeInFace(face, pWorld);
+  if (!bilinear) return texelTransmittance(texelNumber(face, ivec2(floor(place.xy))), place.z);
+  vec2 corner = floor(place.xy - 0.5);
+  vec2 weight = place.xy - 0.5 - corner;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    vec2 side = mix(1.0 - weight, weight, vec2(offset));
+    sum += side.x * side.y * texelTransmittance(texelNumber(face, ivec2(corner) + offset), place.z);
+  }
+  return sum;
+}
+
+// Of a point on a surface with the plane normal `normal`: the four texels around it, each asked at the depth at
+// which the ray through its centre meets that plane, so that a flat surface neither shadows itself nor leaks,
+// whatever the angle and the resolution. Where another surface joins it in a corner, texels on that one lie before
+// the plane without shadowing the point: texels that tell nothing (before the plane, yet no nearer to the light than
+// the point by more than they are wide) are left out as long as others tell something.
+vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal) {
+  ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
+  vec3 place = placeInFace(face, pWorld);
+  vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
+  vec3 n = mat3(face.faceFromWorld) * normal;
+  bool perspective = face.texels.z != 0;
+  float texelWidth = (perspective ? place.z : 1.0) / min(face.projection.x, face.projection.y);
+  float slack = 4.0 * texelWidth;
+  float rounding = 1e-4 * abs(place.z) + 1e-3 * texelWidth;
+  vec2 corner = floor(place.xy - 0.5);
+  vec2 weight = place.xy - 0.5 - corner;
+  vec3 sum = vec3(0.0);
+  float told = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    vec2 sides = mix(1.0 - weight, weight, vec2(offset));
+    float share = sides.x * sides.y;
+    vec2 xy = (corner + vec2(offset) + 0.5 - face.projection.zw) / face.projection.xy;
+    // The plane dot(n, x) = dot(n, p), met by x = (xy depth, -depth) or x = (xy, -depth). Seen edge-on it is met far
+    // away or nowhere; little light falls on it then, and the point's own depth will do.
+    float depth = perspective ? dot(n, p) / dot(n, vec3(xy, -1.0)) : (dot(n.xy, xy) - dot(n, p)) / n.z;
+    depth = (abs(depth - place.z) < 16.0 * slack ? depth : place.z) - rounding;
+    ShadowTexel texel = shadowTexel(texelNumber(face, ivec2(corner) + offset));
+    if (depth <= texel.opaqueDepth) {
+      sum += share * runTransmittance(texel, depth);
+      told += share;
+    } else if (place.z - slack > texel.opaqueDepth) {
+      told += share;
+    }
+  }
+  return told > 0.0 ? sum / told : vec3(0.0);
+}

@@ -1,0 +1,88 @@
+// Marches the smoke of one shadow face, a texel an invocation, from the light to the opaque depth, and writes as few
+// nodes as keep the transmittance within the error bound (Lokovic and Veach 2000, section 3.2, here on the optical
+// depth, so that a node is an exponential and homogeneous smoke takes one).
+#include "shaders/deepshadow/node.glsl"
+#include "shaders/shared/view.h"
+#include "shaders/volumes/media.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = UNIFORM_VIEW) uniform View {
+  ViewParams view;
+};
+layout(std140, binding = UNIFORM_PASS) uniform Pass {
+  ShadowPassParams params;
+};
+layout(std430, binding = STORAGE_COUNTERS) coherent buffer Counting {
+  ShadowCounters counters;
+};
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+
+const float DARK_TAU = 16.0;        // exp(-16) is nothing
+const float MAX_STEPS = 16384.0;
+
+void main() {
+  ivec2 texel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, view.size.w);
+  if (texel.x >= view.size.x || texel.y >= view.size.y) return;
+  uint cell = uint(view.size.z + texel.y * view.size.x + texel.x);
+  vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
+  bool orthographic = view.halfExtent.z != 0.0;
+  vec3 originView = orthographic ? vec3(plane, 0.0) : vec3(0.0);
+  vec3 perDepthView = orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0);
+  vec3 origin = (view.worldFromView * vec4(originView, 1.0)).xyz;
+  vec3 perDepth = mat3(view.worldFromView) * perDepthView;
+  float metresPerDepth = length(perDepth);
+
+  float opaque = texelFetch(opaqueDepth, texel, 0).r;
+  MediaRay ray = mediaRay(origin, perDepth, vec2(0.0, opaque));
+  float start = ray.rangeOfAll.x;
+  float end = ray.rangeOfAll.y;
+  if (start >= end) return;
+  float wanted = ceil((end - start) * metresPerDepth / params.march.x);
+  if (wanted > MAX_STEPS) atomicAdd(counters.boundHit, 1u);
+  float steps = clamp(wanted, 1.0, MAX_STEPS);
+  float stride = (end - start) / steps;
+  float bound = params.march.y;
+
+  // A segment starts at (segmentDepth, segmentTau); any slope in [slopeMin, slopeMax] stays within the bound.
+  float segmentDepth = start;
+  float segmentTau = 0.0;
+  float slopeMin = 0.0;
+  float slopeMax = 3e38;
+  float tau = 0.0;
+  float depth = start;
+  uint id = SMOKE_ID;
+  uint hint = 0u;
+  for (float i = 0.0; i <= steps; i += 1.0) {
+    // One more round than there are steps, or light: it closes the last segment.
+    bool last = i == steps || tau > DARK_TAU;
+    float nextDepth = start + (i + 1.0) * stride;
+    float nextTau = tau;
+    if (!last) nextTau += extinction(ray, start + (i + 0.5) * stride) * stride * metresPerDepth;
+    float transmittance = exp(-nextTau);
+    float tauMin = -log(min(transmittance + bound, 1.0));
+    float tauMax = transmittance > bound ? -log(transmittance - bound) : 3e37;
+    float run = nextDepth - segmentDepth;
+    float newMin = max(slopeMin, (tauMin - segmentTau) / run);
+    float newMax = min(slopeMax, (tauMax - segmentTau) / run);
+    if (last || newMin > newMax) {
+      float range = depth - segmentDepth;
+      float slope = clamp((tau - segmentTau) / max(range, 1e-30), slopeMin, slopeMax);
+      float drop = slope * range;
+      if (range > 0.0 && drop > 0.0) {
+        uint node = insertShadowNode(cell, segmentDepth, range, vec3(drop), id, hint);
+        if (node != 0u) hint = node;
+        ++id;
+      }
+      segmentDepth = depth;
+      segmentTau += max(drop, 0.0);
+      run = nextDepth - segmentDepth;
+      newMin = max(0.0, (tauMin - segmentTau) / run);
+      newMax = (tauMax - segmentTau) / run;
+    }
+    slopeMin = newMin;
+    slopeMax = max(newMax, newMin);
+    tau = nextTau;
+    depth = nextDepth;
+    if (last) i = steps;
+  }
+}

@@ -1,0 +1,59 @@
+// What a fragment of a mesh is made of: factors, textures and vertex colour of its glTF material.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/geometry.h"
+#include "shaders/shared/view.h"
+
+layout(std140, binding = UNIFORM_VIEW) uniform View {
+  ViewParams view;
+};
+layout(std430, binding = STORAGE_DRAWS) readonly buffer Draws {
+  DrawData draws[];
+};
+layout(std430, binding = STORAGE_MATERIALS) readonly buffer Materials {
+  MaterialData materials[];
+};
+layout(binding = TEXTURE_BASE_COLOUR) uniform sampler2D baseColourTexture;
+layout(binding = TEXTURE_TRANSMISSION) uniform sampler2D transmissionTexture;
+
+in vec3 vPositionView;
+in vec3 vNormalWorld;
+in vec4 vTangentWorld;
+in vec2 vUv0;
+in vec2 vUv1;
+in vec4 vColour;
+flat in uint vDraw;
+
+int materialNumber() {
+  return draws[vDraw].indices.x;
+}
+
+// Unique among the fragments of one pixel, ascending with (draw, primitive).
+uint fragmentId() {
+  return uint(draws[vDraw].indices.y + gl_PrimitiveID);
+}
+
+float fragmentDepth() {
+  return -vPositionView.z;
+}
+
+vec2 uvFor(int textureUnit) {
+  return (materials[materialNumber()].flags.y >> textureUnit & 1) != 0 ? vUv1 : vUv0;
+}
+
+// Linear base colour; alpha is coverage: 1 where the material is not BLEND, and cut at the cutoff for MASK.
+vec4 baseColour() {
+  MaterialData material = materials[materialNumber()];
+  vec4 colour = material.baseColour * vColour * texture(baseColourTexture, uvFor(TEXTURE_BASE_COLOUR));
+  if ((material.flags.x & MATERIAL_MASK) != 0) colour.a = colour.a < material.emissive.w ? 0.0 : 1.0;
+  else if ((material.flags.x & MATERIAL_BLEND) == 0) colour.a = 1.0;
+  return colour;
+}
+
+float transmission() {
+  return materials[materialNumber()].factors.w * texture(transmissionTexture, uvFor(TEXTURE_TRANSMISSION)).r;
+}
+
+// t = 1 - a (1 - tau b): what passes, for the eye and for light alike.
+vec3 passThrough(vec4 base, float tau) {
+  return clamp(1.0 - base.a * (1.0 - tau * base.rgb), 0.0, 1.0);
+}

@@ -1,0 +1,40 @@
+// Every mesh of every pass: the camera's and the lights'.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/geometry.h"
+#include "shaders/shared/view.h"
+
+layout(std140, binding = UNIFORM_VIEW) uniform View {
+  ViewParams view;
+};
+layout(std430, binding = STORAGE_DRAWS) readonly buffer Draws {
+  DrawData draws[];
+};
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv0;
+layout(location = 4) in vec2 uv1;
+layout(location = 5) in vec4 colour;
+layout(location = 6) in uint drawNumber;
+
+out vec3 vPositionView;
+out vec3 vNormalWorld;
+out vec4 vTangentWorld;
+out vec2 vUv0;
+out vec2 vUv1;
+out vec4 vColour;
+flat out uint vDraw;
+
+void main() {
+  vec4 pWorld = draws[drawNumber].worldFromObject * vec4(position, 1.0);
+  vec4 pView = view.viewFromWorld * vec4(pWorld.xyz, 1.0);
+  vPositionView = pView.xyz;
+  vNormalWorld = mat3(draws[drawNumber].normalFromObject) * normal;
+  vTangentWorld = vec4(mat3(draws[drawNumber].worldFromObject) * tangent.xyz, tangent.w);
+  vUv0 = uv0;
+  vUv1 = uv1;
+  vColour = colour;
+  vDraw = drawNumber;
+  gl_Position = view.clipFromView * pView;
+}

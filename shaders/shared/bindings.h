@@ -1,0 +1,41 @@
+// Who is bound where. One number has one meaning in every pass that uses it.
+#ifdef __cplusplus
+#pragma once
+#endif
+
+// Uniform blocks
+#define UNIFORM_VIEW 0  // ViewParams: what is looked from
+#define UNIFORM_PASS 1  // the pass's own block
+
+// Storage blocks
+#define STORAGE_DRAWS 0      // DrawData[]
+#define STORAGE_MATERIALS 1  // MaterialData[]
+#define STORAGE_LIST_HEADS 2  // the list that is built or read: see lists.h
+#define STORAGE_LIST_LINKS 3
+#define STORAGE_LIST_PAYLOADS 4
+#define STORAGE_LIST_COUNTERS 5
+#define STORAGE_LIGHTS 6            // LightData[]
+#define STORAGE_LIGHT_CELL_HEADS 7  // the light lists, for readers
+#define STORAGE_LIGHT_CELL_LINKS 8
+#define STORAGE_LIGHT_CELL_PAYLOADS 9
+#define STORAGE_SHADOW_FACES 10   // ShadowFace[]
+#define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
+#define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
+#define STORAGE_VOLUMES 13        // VolumeData[]
+#define STORAGE_PIXELS 14         // PixelState[]
+#define STORAGE_COUNTERS 15       // the pass's own counters
+
+// Texture units
+#define TEXTURE_BASE_COLOUR 0
+#define TEXTURE_METALLIC_ROUGHNESS 1
+#define TEXTURE_NORMAL 2
+#define TEXTURE_EMISSIVE 3
+#define TEXTURE_TRANSMISSION 4
+#define TEXTURE_SPECULAR 5
+#define TEXTURE_SPECULAR_COLOUR 6
+#define TEXTURE_OPAQUE_DEPTH 7
+#define TEXTURE_SURFACE_0 8
+#define TEXTURE_SURFACE_1 9
+#define TEXTURE_SHADOW_TEXELS 10
+#define TEXTURE_SHADOW_KNOTS 11
+#define TEXTURE_VOLUMES 12  // and the units after it

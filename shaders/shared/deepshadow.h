@@ -1,0 +1,46 @@
+// Deep shadow maps: per texel a transmittance function of the depth seen from the light.
+#include "shaders/shared/glsl.h"
+SHARED_BEGIN
+
+// One projection of a light: a whole map for directional and spot lights, one of six for lights that need a cube.
+struct ShadowFace {
+  mat4 faceFromWorld;  // view space of the face; depth is along -Z
+  vec4 projection;     // texel = xy * scale + offset; xy is divided by depth first when perspective
+  ivec4 texels;        // x: number of its first texel, y: side, z: 1 for perspective
+};
+
+// The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots.
+struct ShadowTexel {
+  uint first;         // knot
+  uint count;
+  float opaqueDepth;  // 3e38: nothing opaque
+};
+
+struct ShadowKnot {
+  float depth;  // ascending; two of one depth are a step
+  float tauR;   // optical depth from the light to here
+  float tauG;
+  float tauB;
+};
+
+// Payload of a node while the lists are built: where the light falls, and by how much.
+struct ShadowNode {
+  float range;        // m; 0: a surface, a step
+  uint tauRg;         // optical depth of the drop, halves
+  uint tauBFlags;
+};
+
+struct ShadowPassParams {
+  vec4 march;         // x: step of the march through smoke, m; y: bound of the error of the transmittance
+  ivec4 range;  // of the texels that are built: x: number of their first knot, y: how many
+};
+
+struct ShadowCounters {
+  uint knots;       // demand, counted past the capacity
+  uint boundHit;    // texels whose march was longer than its bound
+};
+
+SHARED_END
+
+#define SHADOW_OPAQUE_TAU 100.0
+#define NOTHING_OPAQUE 3e38

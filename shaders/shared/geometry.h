@@ -1,0 +1,24 @@
+// Meshes and materials, as scene/geometry_gpu uploads them.
+#include "shaders/shared/glsl.h"
+SHARED_BEGIN
+
+// One instance of one mesh.
+struct DrawData {
+  mat4 worldFromObject;
+  mat4 normalFromObject;  // inverse transpose, upper 3x3
+  ivec4 indices;          // x: material, y: number of its first primitive among those of all draws
+};
+
+struct MaterialData {
+  vec4 baseColour;      // linear, alpha
+  vec4 emissive;        // rgb; w: alpha cutoff
+  vec4 specularColour;  // rgb; w: specular factor
+  vec4 factors;         // metallic, roughness, normal scale, transmission
+  ivec4 flags;          // x: MATERIAL_*, y: bit n: texture unit n reads the second uv set
+};
+
+SHARED_END
+
+#define MATERIAL_MASK 1
+#define MATERIAL_BLEND 2
+#define MATERIAL_NORMAL_MAP 4

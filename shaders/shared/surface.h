@@ -1,0 +1,18 @@
+// A lit surface point, packed: two G-buffer textures hold the first eight words, a node of the camera's lists all nine.
+#include "shaders/shared/glsl.h"
+SHARED_BEGIN
+
+// Halves are pairs from packHalf2x16, normals octahedral from packSnorm2x16.
+struct PackedSurface {
+  uint normal;             // shading normal
+  uint geometricNormal;    // of the triangle's plane; both turned towards the viewer
+  uint diffuseRg;          // what is reflected diffusely: b (1 - metallic) a (1 - tau)
+  uint diffuseBRoughness;
+  uint f0Rg;               // specular reflectance at normal incidence, times alpha
+  uint f0BF90;
+  uint emissiveRg;
+  uint emissiveBPassR;     // t = 1 - a (1 - tau b): what is let through
+  uint passGb;
+};
+
+SHARED_END

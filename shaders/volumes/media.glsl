@@ -1,0 +1,57 @@
+// Density, extinction and phase of the media in the scene. VOLUME_COUNT is how many there are, at least 1.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/math.glsl"
+#include "shaders/shared/volumes.h"
+
+layout(std430, binding = STORAGE_VOLUMES) readonly buffer Volumes {
+  VolumeData volumes[];
+};
+layout(binding = TEXTURE_VOLUMES) uniform sampler3D densities[VOLUME_COUNT];
+
+// A ray through all media: points are start + depth * perDepth, in texture coordinates of each.
+struct MediaRay {
+  vec3 start[VOLUME_COUNT];
+  vec3 perDepth[VOLUME_COUNT];
+  vec2 range[VOLUME_COUNT];  // of depth, inside the medium's box; empty when x >= y
+  vec2 rangeOfAll;
+};
+
+MediaRay mediaRay(vec3 origin, vec3 perDepth, vec2 depthRange) {
+  MediaRay ray;
+  ray.rangeOfAll = vec2(3e38, -3e38);
+  for (int v = 0; v < VOLUME_COUNT; ++v) {
+    VolumeData volume = volumes[v];
+    vec3 start = (volume.textureFromWorld * vec4(origin, 1.0)).xyz;
+    vec3 rate = (volume.textureFromWorld * vec4(perDepth, 0.0)).xyz;
+    vec3 safeRate = mix(rate, vec3(1e-20), lessThan(abs(rate), vec3(1e-20)));
+    vec3 toMin = (volume.boxMin.xyz - start) / safeRate;
+    vec3 toMax = (volume.boxMax.xyz - start) / safeRate;
+    vec3 entry = min(toMin, toMax);
+    vec3 leave = max(toMin, toMax);
+    vec2 range = vec2(max(max(entry.x, entry.y), max(entry.z, depthRange.x)), min(min(leave.x, leave.y), min(leave.z, depthRange.y)));
+    ray.start[v] = start;
+    ray.perDepth[v] = rate;
+    ray.range[v] = range;
+    if (range.x < range.y) ray.rangeOfAll = vec2(min(ray.rangeOfAll.x, range.x), max(ray.rangeOfAll.y, range.y));
+  }
+  return ray;
+}
+
+// Extinction of medium v at a depth along the ray, 1/m.
+float extinctionOf(int v, MediaRay ray, float depth) {
+  bool inside = depth >= ray.range[v].x && depth <= ray.range[v].y;
+  float density = textureLod(densities[v], ray.start[v] + depth * ray.perDepth[v], 0.0).r;
+  return inside ? density * volumes[v].albedoScale.w : 0.0;
+}
+
+float extinction(MediaRay ray, float depth) {
+  float sum = 0.0;
+  for (int v = 0; v < VOLUME_COUNT; ++v) sum += extinctionOf(v, ray, depth);
+  return sum;
+}
+
+// Henyey-Greenstein, 1/sr; `cosine` between the directions of travel before and after.
+float phaseHenyeyGreenstein(float cosine, float g) {
+  float base = 1.0 + g * g - 2.0 * g * cosine;
+  return (1.0 - g * g) / (4.0 * PI * base * sqrt(base));
+}

@@ -1,0 +1,98 @@
+#include "volumes/reference_march.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sfumato::volumes {
+
+namespace {
+
+// The line start + t * direction in a medium's index space, t as in world space.
+struct IndexLine {
+  glm::dvec3 start;
+  glm::dvec3 direction;
+
+  glm::dvec3 at(double t) const { return start + t * direction; }
+};
+
+IndexLine indexLine(const Medium& medium, const glm::dvec3& pWorld, const glm::dvec3& direction) {
+  const glm::dmat4 indexFromWorld = glm::inverse(medium.worldFromIndex);
+  return {glm::dvec3(indexFromWorld * glm::dvec4(pWorld, 1)),
+          glm::dvec3(indexFromWorld * glm::dvec4(direction, 0))};
+}
+
+bool clipToBox(const DensityGrid& grid, const IndexLine& line, double& tMin, double& tMax) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = grid.origin[axis];
+    const double high = low + grid.size[axis] - 1;
+    const double start = line.start[axis];
+    const double direction = line.direction[axis];
+    if (!std::isfinite(start) || !std::isfinite(direction)) return false;  // a medium flattened to nothing
+    if (direction == 0) {
+      if (start < low || start > high) return false;
+      continue;
+    }
+    const auto [enter, leave] = std::minmax({(low - start) / direction, (high - start) / direction});
+    tMin = std::max(tMin, enter);
+    tMax = std::min(tMax, leave);
+  }
+  return tMin <= tMax;
+}
+
+double opticalDepth(const Medium& medium, const glm::dvec3& from, const glm::dvec3& to, double stepVoxels) {
+  const IndexLine line = indexLine(medium, from, to - from);
+  double tMin = 0;
+  double tMax = 1;
+  if (!clipToBox(medium.grid, line, tMin, tMax)) return 0;
+
+  const double length = (tMax - tMin) * glm::distance(from, to);
+  const auto steps = std::ceil(length / (stepVoxels * voxelSize(medium.worldFromIndex)));
+  double sum = 0;
+  for (double step = 0; step < steps; ++step)
+    sum += densityAt(medium.grid, line.at(tMin + (tMax - tMin) * (step + 0.5) / steps));
+  return steps > 0 ? sum * medium.scale * length / steps : 0;
+}
+
+}  // namespace
+
+double densityAt(const DensityGrid& grid, const glm::dvec3& pIndex) {
+  const glm::dvec3 p = pIndex - glm::dvec3(grid.origin);
+  const glm::ivec3 last = grid.size - 1;
+  const bool inside =
+      p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x <= last.x && p.y <= last.y && p.z <= last.z;  // false for NaN
+  if (!inside) return 0;
+
+  const glm::ivec3 low(p);
+  const glm::ivec3 high = glm::min(low + 1, last);
+  const glm::dvec3 f = p - glm::dvec3(low);
+  const auto alongX = [&](int y, int z) {
+    return glm::mix(static_cast<double>(grid.values[grid.valueIndex(low.x, y, z)]),
+                    static_cast<double>(grid.values[grid.valueIndex(high.x, y, z)]), f.x);
+  };
+  const auto alongXY = [&](int z) { return glm::mix(alongX(low.y, z), alongX(high.y, z), f.y); };
+  return glm::mix(alongXY(low.z), alongXY(high.z), f.z);
+}
+
+double extinctionAt(const Medium& medium, const glm::dvec3& pWorld) {
+  return medium.scale * densityAt(medium.grid, indexLine(medium, pWorld, glm::dvec3(0)).start);
+}
+
+bool clipToMedium(const Medium& medium, const glm::dvec3& pWorld, const glm::dvec3& direction, double& tMin,
+                  double& tMax) {
+  return clipToBox(medium.grid, indexLine(medium, pWorld, direction), tMin, tMax);
+}
+
+double opticalDepth(std::span<const Medium> media, const glm::dvec3& from, const glm::dvec3& to,
+                    double stepVoxels) {
+  double sum = 0;
+  for (const Medium& medium : media) sum += opticalDepth(medium, from, to, stepVoxels);
+  return sum;
+}
+
+double phaseHenyeyGreenstein(double cosine, double g) {
+  const double base = 1 + g * g - 2 * g * cosine;
+  return (1 - g * g) / (4 * std::numbers::pi * base * std::sqrt(base));
+}
+
+}  // namespace sfumato::volumes

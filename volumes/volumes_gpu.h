@@ -1,0 +1,35 @@
+// Media on the GPU: one 3D texture of density each, and what shaders/volumes/media.glsl reads.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/device.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "volumes/grid.h"
+
+namespace sfumato::volumes {
+
+class VolumesGpu {
+ public:
+  // Uploads every medium: 4 bytes a voxel. Throws Memory when a grid is over the device's 3D texture limit,
+  // or there are more media than texture units for them.
+  VolumesGpu(gl::Device& device, std::span<const Medium> media);
+
+  size_t count() const { return textures_.size(); }
+  bool empty() const { return textures_.empty(); }
+  // The shortest step between voxels of any medium, m; marching steps are told in it.
+  double voxelSize() const { return voxelSize_; }
+  // VOLUME_COUNT, for programs that include shaders/volumes/media.glsl.
+  gl::ShaderDefines defines() const;
+  void bind() const;
+
+ private:
+  std::vector<gl::Texture> textures_;
+  gl::Buffer data_;
+  double voxelSize_ = 0;
+};
+
+}  // namespace sfumato::volumes
