@@ -244,21 +244,24 @@ void addColumns(Gltf& gltf) {
   column.addTube({0, block, 0}, height - 2 * block, radius, 0.86f * radius);
   column.addBox({-block, 0, -block}, {block, block, block});
   column.addBox({-block, height - block, -block}, {block, height, block});
-  gltf.addShape("left column", column, stone, at({-2.1f, 0, -1.5f}));
-  gltf.addShape("column in the smoke", column, stone, at(bowl + vec3(0.5f, 0, -0.25f)));
-  gltf.addShape("right column", column, stone, at({2.6f, 0, -1.6f}));
+  gltf.addShape("left column", column, stone, at({-3.1f, 0, -1.4f}));
+  gltf.addShape("column in the smoke", column, stone, at(bowl + vec3(0.5f, 0, -0.2f)));
+  gltf.addShape("right column", column, stone, at({3.3f, 0, -1.6f}));
 }
 
 // A window that stands on two posts: panes of coloured glass between dark bars, looking along its +Z.
 void addWindow(Gltf& gltf, const json& placement) {
-  constexpr int columns = 2, rows = 3;
-  constexpr float pane = 0.44f, bar = 0.045f, sill = 1.35f;
-  constexpr Material glass[rows * columns] = {{"ruby glass", {0.9f, 0.06f, 0.05f}, 0.1f, 1, true},
-                                              {"amber glass", {1.f, 0.55f, 0.06f}, 0.1f, 1, true},
-                                              {"green glass", {0.1f, 0.75f, 0.2f}, 0.1f, 1, true},
-                                              {"cobalt glass", {0.08f, 0.2f, 0.95f}, 0.1f, 1, true},
-                                              {"violet glass", {0.6f, 0.12f, 0.85f}, 0.1f, 1, true},
-                                              {"sea glass", {0.1f, 0.75f, 0.8f}, 0.1f, 1, true}};
+  constexpr int columns = 3, rows = 3;
+  constexpr float pane = 0.34f, bar = 0.045f, sill = 1.42f;
+  const auto glass = [](const char* name, const vec3& colour) {
+    return Material{name, colour, 0.1f, 1, true};
+  };
+  const Material panes[rows * columns] = {
+      glass("ruby", {0.95f, 0.07f, 0.05f}),  glass("amber", {1.f, 0.6f, 0.08f}),
+      glass("emerald", {0.08f, 0.7f, 0.2f}), glass("cobalt", {0.1f, 0.22f, 0.95f}),
+      glass("rose", {1.f, 0.3f, 0.45f}),     glass("gold", {1.f, 0.75f, 0.15f}),
+      glass("violet", {0.55f, 0.15f, 0.9f}), glass("turquoise", {0.1f, 0.8f, 0.8f}),
+      glass("flame", {1.f, 0.32f, 0.06f})};
   const float width = columns * pane + (columns + 1) * bar;
   const auto barBegin = [&](int i) { return static_cast<float>(i) * (pane + bar); };
 
@@ -278,7 +281,7 @@ void addWindow(Gltf& gltf, const json& placement) {
 
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      const Material& material = glass[row * columns + column];
+      const Material& material = panes[row * columns + column];
       Shape shape;
       shape.addPlane({barBegin(column) + bar - width / 2, sill + barBegin(row) + bar, 0}, {pane, 0, 0},
                      {0, pane, 0});
@@ -320,29 +323,31 @@ void addSmoke(Gltf& gltf) {
   vessel.addDisc(bowl + vec3(0, bowlHeight - 0.03f, 0), 0.18f);
   gltf.addShape("bowl", vessel, gltf.addMaterial({"bronze", {0.3f, 0.2f, 0.1f}, 0.5f}));
 
+  constexpr float wider = 1.25f;
   json smoke = at(bowl + vec3(0, bowlHeight - 0.03f, 0));
+  smoke["scale"] = {wider, wider, wider};
   smoke["extras"] = {{"volume", "plume.vdb"},
                      {"volume_grid", "density"},
-                     {"volume_scale", 9},
+                     {"volume_scale", 8},
                      {"volume_albedo", {0.92, 0.92, 0.94}},
                      {"volume_g", 0.25}};
   gltf.addNode("smoke", smoke);
 }
 
 void addLights(Gltf& gltf, const vec3& spot) {
-  const json cone = {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.29}};
+  const json cone = {{"innerConeAngle", 0.19}, {"outerConeAngle", 0.26}};
   gltf.addLight("light behind the glass",
-                {{"type", "spot"}, {"color", {1, 0.96, 0.9}}, {"intensity", 160}, {"spot", cone}},
-                lookingAt(spot, bowl + vec3(0, 1.2f, 0)));
-  gltf.addLight("lamp", {{"type", "point"}, {"color", {1, 0.62, 0.3}}, {"intensity", 5}},
-                at({2.5f, 1.25f, -0.9f}));
-  gltf.addLight("night sky", {{"type", "directional"}, {"color", {0.5, 0.68, 1}}, {"intensity", 0.3}},
+                {{"type", "spot"}, {"color", {1, 0.96, 0.9}}, {"intensity", 400}, {"spot", cone}},
+                lookingAt(spot, bowl + vec3(0, 1.18f, 0)));
+  gltf.addLight("lamp", {{"type", "point"}, {"color", {1, 0.62, 0.3}}, {"intensity", 3.5}},
+                at({1.35f, 1.3f, 0.9f}));
+  gltf.addLight("night sky", {{"type", "directional"}, {"color", {0.5, 0.68, 1}}, {"intensity", 1.1}},
                 lookingAt({-0.8f, 3, 2.4f}, {0, 0, 0}));
 }
 
 void makeScene(const std::filesystem::path& folder) {
   constexpr int voxelsHigh = 224;
-  constexpr double plumeHeight = 2.8;
+  constexpr double plumeHeight = 2.3;
   constexpr uint64_t seed = 2;
   volumes::writeVdb(folder / "plume.vdb", volumes::makePlume(voxelsHigh, plumeHeight, seed));
 
@@ -350,14 +355,14 @@ void makeScene(const std::filesystem::path& folder) {
   addHall(gltf);
   addColumns(gltf);
   // The window stands between the spot light and the smoke, and looks at both.
-  const vec3 spot(-3.6f, 3.1f, 1.5f);
+  const vec3 spot(-3.3f, 3.2f, -2.f);
   const vec3 towards = bowl - spot;
-  const vec3 window = spot + 0.42f * towards;
+  const vec3 window = spot + 0.58f * towards;
   addWindow(gltf, turned({window.x, 0, window.z}, std::atan2(towards.x, towards.z)));
-  addCurtain(gltf, turned({1.85f, 0.15f, -0.35f}, -0.9f));
+  addCurtain(gltf, turned({1.95f, 0.15f, -0.6f}, -0.45f));
   addSmoke(gltf);
   addLights(gltf, spot);
-  gltf.addCamera("camera", 0.66f, lookingAt({0.15f, 1.55f, 5.9f}, {0, 1.6f, -0.4f}));
+  gltf.addCamera("camera", 0.66f, lookingAt({0.2f, 1.6f, 4.9f}, {0, 1.62f, -0.4f}));
   gltf.write(folder / "demo.gltf");
 }
 
