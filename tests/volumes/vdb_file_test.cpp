@@ -484,7 +484,7 @@ TEST_P(DamagedVdbFile, IsRefusedWhereverItIsCut) {
 TEST_P(DamagedVdbFile, IsReadOrRefusedWithAnyByteChanged) {
   const std::string whole = smallFile();
   base::Random random(2);
-  constexpr int changes = 400;
+  constexpr int changes = 200;
   for (int i = 0; i < changes; ++i) {
     std::string damaged = whole;
     // Half of the changes go to the names, sizes and masks at the beginning, the others anywhere.
@@ -520,6 +520,10 @@ struct RealFile {
   float maximum;
   double voxel;
 };
+
+void PrintTo(const RealFile& file, std::ostream* out) {
+  *out << file.name;
+}
 
 class RealVdbFile : public testing::TestWithParam<RealFile> {};
 
