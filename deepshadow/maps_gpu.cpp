@@ -13,8 +13,6 @@
 
 namespace sfumato::deepshadow {
 
-using scene::Layer;
-
 namespace {
 
 // Parts of a buffer that are bound alone start at multiples of 256 bytes; texels do, as faces have whole
@@ -138,7 +136,7 @@ class Builder {
                       .viewport = {0, 0, face.side, face.side},
                       .depthClamp = true,
                       .blend = gl::Blend::Minimum});
-    inputs_.geometry.draw(Layer::Opaque, false);
+    inputs_.casters.opaque();
   }
 
   // Lists of a window, then their runs. False when the window is too large for the device.
@@ -172,14 +170,14 @@ class Builder {
     useFace(window.face, -static_cast<int>(window.firstCell()), window.firstRow);
     usePass(window);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
-    if (inputs_.geometry.has(Layer::Translucent)) {
+    if (inputs_.casters.translucent) {
       const gl::Framebuffer noTarget({side, side});
       gl::setDrawState({.program = &translucent_,
                         .target = &noTarget,
                         .viewport = {0, 0, side, side},
                         .scissor = glm::ivec4(0, window.firstRow, side, window.rows),
                         .depthClamp = true});
-      inputs_.geometry.draw(Layer::Translucent, false);
+      inputs_.casters.translucent();
       gl::storageBarrier();
     }
     if (smoke_) {
@@ -256,15 +254,26 @@ class Builder {
 
 }  // namespace
 
+std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
+                                    std::span<const glm::dvec3> receivers,
+                                    std::span<const glm::dvec3> castingPoints) {
+  const int side = faceSide(resolution);
+  if (light.type == lights::LightType::Directional)
+    return {directionalFace(light.direction, side, receivers, castingPoints)};
+  if (light.type == lights::LightType::Spot && light.outerCone <= widestCone)
+    return {coneFace(light.position, light.direction, light.outerCone, side)};
+  return cubeFaces(light.position, side);
+}
+
 Maps::Maps(gl::Device& device, const MapInputs& inputs) {
   std::vector<std::vector<FaceProjection>> faces;
   std::vector<shared::ShadowFace> data;
   size_t texels = 0;
-  for (const scene::Light& light : inputs.lights) {
+  for (const lights::Light& light : inputs.lights) {
     LightMap& map = lightMaps_.emplace_back();
     faces.emplace_back();
     if (!light.castsShadow) continue;
-    faces.back() = shadowFaces(light, inputs.resolution, inputs.receivers, inputs.casters);
+    faces.back() = facesOf(light, inputs.resolution, inputs.receivers, inputs.castingPoints);
     map.firstFace = static_cast<int>(data.size());
     map.faces = static_cast<int>(faces.back().size());
     map.firstTexel = texels;

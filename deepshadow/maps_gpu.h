@@ -4,7 +4,9 @@
 // lock of each texel; then a resolve into runs of knots with the optical depth summed up.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,21 +14,32 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
+#include "lights/light.h"
 #include "lists/lists_gpu.h"
-#include "scene/geometry_gpu.h"
-#include "scene/scene.h"
 #include "volumes/volumes_gpu.h"
 
 namespace sfumato::deepshadow {
 
+// Draw calls for everything that casts shadows, with the draw state that is current; programs start with
+// shaders/scene/surface.vert.
+struct Casters {
+  std::function<void()> opaque;
+  std::function<void()> translucent;  // empty: there are none
+};
+
+// The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
+std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
+                                    std::span<const glm::dvec3> receivers,
+                                    std::span<const glm::dvec3> castingPoints);
+
 struct MapInputs {
-  const std::vector<scene::Light>& lights;
-  const scene::GeometryGpu& geometry;
+  const std::vector<lights::Light>& lights;
+  const Casters& casters;
   const volumes::VolumesGpu& volumes;
-  const std::vector<glm::dvec3>& receivers;  // see shadowFaces()
-  const std::vector<glm::dvec3>& casters;
-  int resolution = 1024;     // texels a side; a face of a cube has half
-  double stepMetres = 0.01;  // of the march through smoke
+  const std::vector<glm::dvec3>& receivers;      // see directionalFace()
+  const std::vector<glm::dvec3>& castingPoints;  // its `casters`
+  int resolution = 1024;                         // texels a side; a face of a cube has half
+  double stepMetres = 0.01;                      // of the march through smoke
   double error =
       1.0 /
       512;  // bound of the error that compression adds to the transmittance of smoke; 0 keeps every step

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sfumato::deepshadow {
 
@@ -11,9 +12,8 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double widestSpot =
-    1.0471975511965976;  // radians off the axis that one perspective face still takes
 constexpr double marginTexels = 2;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A space at `origin` that looks along `forward` (unit) with -Z.
 dmat4 lookingAlong(const dvec3& forward, const dvec3& origin) {
@@ -29,18 +29,32 @@ double withMargin(double inner, int side) {
   return inner * side / (side - 2 * marginTexels);
 }
 
+FaceProjection perspectiveFace(const dvec3& forward, const dvec3& origin, double tangent, int side) {
+  FaceProjection face;
+  face.worldFromFace = lookingAlong(forward, origin);
+  face.halfExtent = dvec2(withMargin(tangent, side));
+  face.side = side;
+  return face;
+}
+
+}  // namespace
+
+int faceSide(int resolution) {
+  return std::max(32, resolution / 16 * 16);
+}
+
 FaceProjection directionalFace(const dvec3& direction, int side, std::span<const dvec3> receivers,
                                std::span<const dvec3> casters) {
   const dmat4 rotation = lookingAlong(direction, dvec3(0));
   const glm::dmat3 faceFromWorld = glm::transpose(glm::dmat3(rotation));
-  dvec2 low(scene::infinity);
-  dvec2 high(-scene::infinity);
+  dvec2 low(infinity);
+  dvec2 high(-infinity);
   for (const dvec3& p : receivers) {
     const dvec2 xy(faceFromWorld * p);
     low = glm::min(low, xy);
     high = glm::max(high, xy);
   }
-  double nearest = -scene::infinity;  // largest z: the caster nearest to the light
+  double nearest = -infinity;  // largest z: the caster nearest to the light
   for (const dvec3& p : casters) nearest = std::max(nearest, (faceFromWorld * p).z);
   if (receivers.empty() || casters.empty()) {
     low = dvec2(-1);
@@ -57,29 +71,17 @@ FaceProjection directionalFace(const dvec3& direction, int side, std::span<const
   return face;
 }
 
-FaceProjection perspectiveFace(const dvec3& forward, const dvec3& origin, double tangent, int side) {
-  FaceProjection face;
-  face.worldFromFace = lookingAlong(forward, origin);
-  face.halfExtent = dvec2(withMargin(tangent, side));
-  face.side = side;
-  return face;
+FaceProjection coneFace(const dvec3& position, const dvec3& direction, double angle, int side) {
+  return perspectiveFace(direction, position, std::tan(angle), side);
 }
 
-}  // namespace
-
-std::vector<FaceProjection> shadowFaces(const scene::Light& light, int resolution,
-                                        std::span<const dvec3> receivers, std::span<const dvec3> casters) {
-  const int side = std::max(32, resolution / 16 * 16);
-  if (light.type == scene::LightType::Directional)
-    return {directionalFace(light.direction, side, receivers, casters)};
-  if (light.type == scene::LightType::Spot && light.outerCone <= widestSpot)
-    return {perspectiveFace(light.direction, light.position, std::tan(light.outerCone), side)};
+std::vector<FaceProjection> cubeFaces(const dvec3& position, int side) {
   std::vector<FaceProjection> faces;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       dvec3 forward(0);
       forward[axis] = sign;
-      faces.push_back(perspectiveFace(forward, light.position, 1.0, side / 2));
+      faces.push_back(perspectiveFace(forward, position, 1.0, side / 2));
     }
   }
   return faces;

@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "scene/scene.h"
-
 namespace sfumato::deepshadow {
 
 // One square projection. View space looks along -Z; depth is the distance along -Z.
@@ -17,16 +15,24 @@ struct FaceProjection {
   int side = 0;                // texels
 };
 
-// The faces of a light at `resolution` texels a side (a multiple of 16 is taken, so that faces of cubes have
-// whole workgroups; at least 32):
-//  - directional: one orthographic face over `receivers` (world points whose hull holds everything that is
-//  seen), in
-//    front of `casters` (world points whose hull holds everything that casts shadows);
-//  - spot up to 60 degrees off its axis: one perspective face around the cone;
-//  - point, and wider spots: six faces of half the resolution, +x -x +y -y +z -z.
-// Each has a margin of one texel or more, so that filtering never looks past its edge.
-std::vector<FaceProjection> shadowFaces(const scene::Light& light, int resolution,
-                                        std::span<const glm::dvec3> receivers,
-                                        std::span<const glm::dvec3> casters);
+// The side of a face for a map of `resolution` texels: a multiple of 16, at least 32, so that the faces of a
+// cube, which have half, are whole workgroups.
+int faceSide(int resolution);
+
+// Half the angle of the widest cone that one perspective face still takes, radians.
+constexpr double widestCone = 1.0471975511965976;
+
+// Each has a margin of a texel or more, so that filtering never looks past its edge.
+
+// A directional light along `direction` (unit, where it shines to): one orthographic face over `receivers`
+// (world points whose hull holds everything that is seen), in front of `casters` (world points whose hull
+// holds everything that casts shadows).
+FaceProjection directionalFace(const glm::dvec3& direction, int side, std::span<const glm::dvec3> receivers,
+                               std::span<const glm::dvec3> casters);
+// A cone at `position` along `direction` with half angle `angle` <= widestCone: one perspective face around
+// it.
+FaceProjection coneFace(const glm::dvec3& position, const glm::dvec3& direction, double angle, int side);
+// The whole sphere around `position`: six faces of half the side, +x -x +y -y +z -z.
+std::vector<FaceProjection> cubeFaces(const glm::dvec3& position, int side);
 
 }  // namespace sfumato::deepshadow

@@ -10,9 +10,6 @@
 
 namespace sfumato::lights {
 
-using scene::Light;
-using scene::LightType;
-
 namespace {
 
 constexpr size_t proxyVertices = 60;  // of the icosahedron; the cone's pyramid uses 48 of them

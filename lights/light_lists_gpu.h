@@ -9,8 +9,8 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/program.h"
+#include "lights/light.h"
 #include "lists/lists_gpu.h"
-#include "scene/scene.h"
 
 namespace sfumato::lights {
 
@@ -21,7 +21,7 @@ struct ShadowFaces {
 };
 
 struct LightListInputs {
-  const std::vector<scene::Light>& lights;
+  const std::vector<Light>& lights;
   const std::vector<ShadowFaces>& shadows;  // of each light, same order
   const gl::Buffer& view;                   // shared::ViewParams of the camera
   int width = 0;                            // of the image, pixels

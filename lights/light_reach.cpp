@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sfumato::lights {
 
-using scene::Light;
-using scene::LightType;
-
 double reach(const Light& light) {
-  if (light.type == LightType::Directional) return scene::infinity;
+  if (light.type == LightType::Directional) return std::numeric_limits<double>::infinity();
   const double brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
   return std::min(light.range, std::sqrt(brightest / irradianceCutoff));
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/scene.h"
+#include "lights/light.h"
 
 namespace sfumato::lights {
 
@@ -13,13 +13,13 @@ constexpr double irradianceCutoff = 1e-4;
 
 // Distance in metres beyond which the light gives nothing (its range), or less than the cutoff. Infinite for
 // directional lights.
-double reach(const scene::Light& light);
+double reach(const Light& light);
 
 // Whether the light gives anything at a point, shadows aside: inside its reach and its cone.
-bool reaches(const scene::Light& light, const glm::dvec3& pWorld);
+bool reaches(const Light& light, const glm::dvec3& pWorld);
 
 // Indices of the lights that give anything at all: directional ones first, then point, then spot, each in
 // file order.
-std::vector<int> lightOrder(const std::vector<scene::Light>& lights);
+std::vector<int> lightOrder(const std::vector<Light>& lights);
 
 }  // namespace sfumato::lights

@@ -24,7 +24,7 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
                     .target = &target,
                     .viewport = {0, 0, inputs.width, inputs.height},
                     .depthTest = true});
-  inputs.geometry.draw(scene::Layer::Opaque, true);
+  inputs.geometry.draw(Layer::Opaque, true);
   return result;
 }
 

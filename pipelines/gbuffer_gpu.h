@@ -4,7 +4,7 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
-#include "scene/geometry_gpu.h"
+#include "pipelines/geometry_gpu.h"
 
 namespace sfumato::pipelines {
 
@@ -17,7 +17,7 @@ struct GBuffer {
 };
 
 struct GBufferInputs {
-  const scene::GeometryGpu& geometry;
+  const GeometryGpu& geometry;
   const gl::Buffer& view;  // shared::ViewParams
   int width = 0;
   int height = 0;

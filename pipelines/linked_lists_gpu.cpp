@@ -15,7 +15,6 @@
 namespace sfumato::pipelines {
 
 using gl::Profiler;
-using scene::Layer;
 
 namespace {
 
@@ -37,7 +36,7 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes) {
 }
 
 struct SurfaceListInputs {
-  const scene::GeometryGpu& geometry;
+  const GeometryGpu& geometry;
   const gl::Buffer& view;
   const GBuffer& gbuffer;
   int width = 0;
@@ -168,13 +167,16 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     const Profiler::Scope time(device_.profiler(), "deep shadow maps");
     const auto receivers =
         scene::visiblePoints(scene_, mediaBoxes_, camera, static_cast<double>(width) / height);
-    const auto casters = scene::boundingPoints(scene_, mediaBoxes_);
+    const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
+    deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::Opaque, false); }, .translucent = {}};
+    if (geometry_.has(Layer::Translucent))
+      casters.translucent = [&] { geometry_.draw(Layer::Translucent, false); };
     const double step = volumes_.empty() ? 1.0 : quality.stepVoxels * volumes_.voxelSize();
     return deepshadow::Maps(device_, {.lights = scene_.lights,
-                                      .geometry = geometry_,
+                                      .casters = casters,
                                       .volumes = volumes_,
                                       .receivers = receivers,
-                                      .casters = casters,
+                                      .castingPoints = castingPoints,
                                       .resolution = quality.shadowResolution,
                                       .stepMetres = step,
                                       .error = quality.shadowError});

@@ -14,8 +14,8 @@
 #include "image/image.h"
 #include "lights/light_lists_gpu.h"
 #include "lists/lists_gpu.h"
+#include "pipelines/geometry_gpu.h"
 #include "pipelines/quality.h"
-#include "scene/geometry_gpu.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
 #include "volumes/volumes_gpu.h"
@@ -50,7 +50,7 @@ class LinkedListsPipeline {
   gl::Device& device_;
   const scene::Scene& scene_;
   std::vector<glm::dmat4> mediaBoxes_;  // world from unit cube
-  scene::GeometryGpu geometry_;
+  GeometryGpu geometry_;
   volumes::VolumesGpu volumes_;
 };
 

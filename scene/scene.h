@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "lights/light.h"
+
 namespace sfumato::scene {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -24,20 +26,8 @@ struct Camera {
   double farDistance = infinity;  // metres, > nearDistance; what is farther is not seen
 };
 
-enum class LightType { Directional = 0, Point = 1, Spot = 2 };
-
-// KHR_lights_punctual with plain radiometric units (docs: no 683 lm/W factor).
-struct Light {
-  std::string name;
-  LightType type = LightType::Point;
-  glm::dvec3 position{0.0};        // world
-  glm::dvec3 direction{0, 0, -1};  // world, unit: where a directional or spot light shines to
-  glm::dvec3 intensity{1.0};       // colour * intensity: W/m^2 for directional, W/sr for point and spot
-  double range = infinity;         // metres; the window of KHR_lights_punctual applies where it is finite
-  double innerCone = 0;            // radians, spot: 0 <= inner < outer <= pi/2
-  double outerCone = 0.785398163397448;
-  bool castsShadow = true;
-};
+using lights::Light;
+using lights::LightType;
 
 enum class Wrap { Repeat, ClampToEdge, MirroredRepeat };
 

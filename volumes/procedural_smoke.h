@@ -9,8 +9,8 @@ namespace sfumato::volumes {
 
 // A rising plume, about 1 m wide and `height` metres high, its foot at the origin, density in [0, 1]: a
 // wandering column of puffs, displaced by divergence-free curl noise (Bridson, Hourihan, Nordenstam 2007) and
-// eroded by fractal noise into billows, wisps and hollows. `voxelsHigh` in [8, 512] sets the resolution; the
-// same seed gives the same bits.
+// eroded by fractal noise into billows, wisps and hollows. `voxelsHigh` in [8, 512] sets the resolution,
+// `height` is in [1, 20]; the same seed gives the same bits, whatever the number of threads.
 DensityGrid makePlume(int voxelsHigh, double height, uint64_t seed);
 
 }  // namespace sfumato::volumes

@@ -49,12 +49,12 @@ int faceTowards(int faces, vec3 toPoint) {
   return axis * 2 + (toPoint[axis] < 0.0 ? 1 : 0);
 }
 
-// Texel position (centres at .5) and depth of a point in a face.
-vec3 placeInFace(ShadowFace face, vec3 pWorld) {
-  vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
-  float depth = -p.z;
-  vec2 xy = face.texels.z != 0 ? p.xy / max(depth, 1e-20) : p.xy;
-  return vec3(xy * face.projection.xy + face.projection.zw, depth);
+// A point `toPoint` away from the light in the view space of a cube's face; the same axes as shadowFaces() in C++.
+vec3 inCubeFace(int face, vec3 toPoint) {
+  float s = (face & 1) == 0 ? 1.0 : -1.0;
+  if (face < 2) return vec3(toPoint.z * s, toPoint.y, -toPoint.x * s);
+  if (face < 4) return vec3(-toPoint.z * s, toPoint.x, -toPoint.y * s);
+  return vec3(-toPoint.x * s, toPoint.y, -toPoint.z * s);
 }
 
 uint texelNumber(ShadowFace face, ivec2 texel) {
@@ -62,18 +62,19 @@ uint texelNumber(ShadowFace face, ivec2 texel) {
   return uint(face.texels.x + texel.y * face.texels.y + texel.x);
 }
 
-// Of a point in smoke: the nearest texel, or the four around it when `bilinear`.
-vec3 shadowInSmoke(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, bool bilinear) {
-  ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
-  vec3 place = placeInFace(face, pWorld);
-  if (!bilinear) return texelTransmittance(texelNumber(face, ivec2(floor(place.xy))), place.z);
-  vec2 corner = floor(place.xy - 0.5);
-  vec2 weight = place.xy - 0.5 - corner;
+// Of a point in smoke, in the view space of the face that sees it: the nearest texel, or the four around it.
+vec3 shadowInSmoke(ShadowFace face, vec3 pFace, bool bilinear) {
+  float depth = -pFace.z;
+  vec2 xy = face.texels.z != 0 ? pFace.xy / max(depth, 1e-20) : pFace.xy;
+  vec2 place = xy * face.projection.xy + face.projection.zw;
+  if (!bilinear) return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth);
+  vec2 corner = floor(place - 0.5);
+  vec2 weight = place - 0.5 - corner;
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 offset = ivec2(i & 1, i >> 1);
     vec2 side = mix(1.0 - weight, weight, vec2(offset));
-    sum += side.x * side.y * texelTransmittance(texelNumber(face, ivec2(corner) + offset), place.z);
+    sum += side.x * side.y * texelTransmittance(texelNumber(face, ivec2(corner) + offset), depth);
   }
   return sum;
 }
@@ -85,15 +86,16 @@ vec3 shadowInSmoke(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, bo
 // the point by more than they are wide) are left out as long as others tell something.
 vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal) {
   ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
-  vec3 place = placeInFace(face, pWorld);
   vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
   vec3 n = mat3(face.faceFromWorld) * normal;
   bool perspective = face.texels.z != 0;
-  float texelWidth = (perspective ? place.z : 1.0) / min(face.projection.x, face.projection.y);
+  float ownDepth = -p.z;
+  vec2 place = (perspective ? p.xy / max(ownDepth, 1e-20) : p.xy) * face.projection.xy + face.projection.zw;
+  float texelWidth = (perspective ? ownDepth : 1.0) / min(face.projection.x, face.projection.y);
   float slack = 4.0 * texelWidth;
-  float rounding = 1e-4 * abs(place.z) + 1e-3 * texelWidth;
-  vec2 corner = floor(place.xy - 0.5);
-  vec2 weight = place.xy - 0.5 - corner;
+  float rounding = 1e-4 * abs(ownDepth) + 1e-3 * texelWidth;
+  vec2 corner = floor(place - 0.5);
+  vec2 weight = place - 0.5 - corner;
   vec3 sum = vec3(0.0);
   float told = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -104,12 +106,12 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     // The plane dot(n, x) = dot(n, p), met by x = (xy depth, -depth) or x = (xy, -depth). Seen edge-on it is met far
     // away or nowhere; little light falls on it then, and the point's own depth will do.
     float depth = perspective ? dot(n, p) / dot(n, vec3(xy, -1.0)) : (dot(n.xy, xy) - dot(n, p)) / n.z;
-    depth = (abs(depth - place.z) < 16.0 * slack ? depth : place.z) - rounding;
+    depth = (abs(depth - ownDepth) < 16.0 * slack ? depth : ownDepth) - rounding;
     ShadowTexel texel = shadowTexel(texelNumber(face, ivec2(corner) + offset));
     if (depth <= texel.opaqueDepth) {
       sum += share * runTransmittance(texel, depth);
       told += share;
-    } else if (place.z - slack > texel.opaqueDepth) {
+    } else if (ownDepth - slack > texel.opaqueDepth) {
       told += share;
     }
   }

@@ -43,46 +43,53 @@ void main() {
   float stride = (end - start) / steps;
   float bound = params.march.y;
 
-  // A segment starts at (segmentDepth, segmentTau); any slope in [slopeMin, slopeMax] stays within the bound.
-  float segmentDepth = start;
-  float segmentTau = 0.0;
-  float slopeMin = 0.0;
-  float slopeMax = 3e38;
   float tau = 0.0;
-  float depth = start;
   uint id = SMOKE_ID;
   uint hint = 0u;
-  for (float i = 0.0; i <= steps; i += 1.0) {
-    // One more round than there are steps, or light: it closes the last segment.
-    bool last = i == steps || tau > DARK_TAU;
-    float nextDepth = start + (i + 1.0) * stride;
-    float nextTau = tau;
-    if (!last) nextTau += extinction(ray, start + (i + 0.5) * stride) * stride * metresPerDepth;
-    float transmittance = exp(-nextTau);
-    float tauMin = -log(min(transmittance + bound, 1.0));
-    float tauMax = transmittance > bound ? -log(transmittance - bound) : 3e37;
-    float run = nextDepth - segmentDepth;
-    float newMin = max(slopeMin, (tauMin - segmentTau) / run);
-    float newMax = min(slopeMax, (tauMax - segmentTau) / run);
-    if (last || newMin > newMax) {
-      float range = depth - segmentDepth;
-      float slope = clamp((tau - segmentTau) / max(range, 1e-30), slopeMin, slopeMax);
-      float drop = slope * range;
-      if (range > 0.0 && drop > 0.0) {
+  float i = 0.0;  // steps done
+  while (i < steps && tau < DARK_TAU) {
+    // Empty steps cost no more than their density.
+    float sigma = 0.0;
+    while (i < steps && sigma == 0.0) {
+      sigma = extinction(ray, start + (i + 0.5) * stride);
+      if (sigma == 0.0) i += 1.0;
+    }
+    // A segment starts at (segmentDepth, segmentTau); any slope in [slopeMin, slopeMax] stays within the bound. It ends
+    // where none is left, where the smoke ends, or where it is dark.
+    float segmentDepth = start + i * stride;
+    float segmentTau = tau;
+    float slopeMin = 0.0;
+    float slopeMax = 3e38;
+    bool open = i < steps;
+    while (open) {
+      sigma = i < steps ? extinction(ray, start + (i + 0.5) * stride) : 0.0;
+      float depth = start + i * stride;
+      float nextTau = tau + sigma * stride * metresPerDepth;
+      // tau may be off by -log(1 + x) to -log(1 - x), x = bound / T; these lie within, and need no logarithm.
+      float x = bound * exp(nextTau);
+      float run = depth + stride - segmentDepth;
+      float tauMin = nextTau - x / (1.0 + x);
+      float tauMax = nextTau + x;
+      float newMin = max(slopeMin, (tauMin - segmentTau) / run);
+      float newMax = min(slopeMax, (tauMax - segmentTau) / run);
+      open = sigma > 0.0 && tau < DARK_TAU;
+      if ((!open || newMin > newMax) && depth > segmentDepth) {
+        float range = depth - segmentDepth;
+        float drop = range * clamp((tau - segmentTau) / range, slopeMin, slopeMax);
         uint node = insertShadowNode(cell, segmentDepth, range, vec3(drop), id, hint);
         if (node != 0u) hint = node;
         ++id;
+        segmentDepth = depth;
+        segmentTau += drop;
+        newMin = max(0.0, (tauMin - segmentTau) / stride);
+        newMax = (tauMax - segmentTau) / stride;
       }
-      segmentDepth = depth;
-      segmentTau += max(drop, 0.0);
-      run = nextDepth - segmentDepth;
-      newMin = max(0.0, (tauMin - segmentTau) / run);
-      newMax = (tauMax - segmentTau) / run;
+      if (open) {
+        slopeMin = newMin;
+        slopeMax = max(newMin, newMax);
+        tau = nextTau;
+        i += 1.0;
+      }
     }
-    slopeMin = newMin;
-    slopeMax = max(newMax, newMin);
-    tau = nextTau;
-    depth = nextDepth;
-    if (last) i = steps;
   }
 }

@@ -50,14 +50,14 @@ struct PixelRay {
 
 uint work = 0u;  // loop iterations of this invocation, about
 
-vec3 reflectedFrom(uint light, Surface surface, vec3 p, vec3 toViewer) {
+vec3 reflectedFrom(uint number, Surface surface, vec3 p, vec3 toViewer) {
+  LightData light = lights[number];
   vec3 toLight;
-  vec3 irradiance = lightAt(light, p, toLight);
+  vec3 irradiance = lightFrom(light, p, toLight);
   float cosine = dot(surface.normal, toLight);
   if (maxComponent(irradiance) <= 0.0 || cosine <= 0.0 || dot(surface.geometricNormal, toLight) <= 0.0) return vec3(0.0);
-  ivec4 indices = lights[light].indices;
-  if (indices.y >= 0)
-    irradiance *= shadowOnSurface(indices.y, indices.z, lights[light].position.xyz, p, surface.geometricNormal);
+  if (light.indices.y >= 0)
+    irradiance *= shadowOnSurface(light.indices.y, light.indices.z, light.position.xyz, p, surface.geometricNormal);
   return brdf(surface, toLight, toViewer) * irradiance * cosine;
 }
 
@@ -82,44 +82,99 @@ vec3 shadeSurface(Surface surface, PixelRay ray, float depth) {
 }
 
 #ifdef SMOKE
-// What scatters at a point, 1/m.
-struct Scatterer {
-  vec3 sigmaS[VOLUME_COUNT];
+// Up to four steps of the march, lit together so that what describes a light is read once for all of them.
+// Component k of each vector is step k; a step that is not there scatters nothing.
+const int STEPS = 4;
+
+struct Steps {
+  int count;
+  vec4 depth;
+  vec4 scattered[VOLUME_COUNT];  // sigma_t of each medium times the length over which it is seen
+  vec4 throughput[3];            // of the ray before the step: red, green, blue
 };
 
-// Radiance that a light adds to the ray per metre: sigma_s * phase * irradiance.
-vec3 scatteredFrom(uint light, Scatterer scatterer, vec3 p, vec3 towardsViewer) {
-  vec3 toLight;
-  vec3 irradiance = lightAt(light, p, toLight);
-  if (maxComponent(irradiance) <= 0.0) return vec3(0.0);
-  ivec4 indices = lights[light].indices;
-  if (indices.y >= 0)
-    irradiance *= shadowInSmoke(indices.y, indices.z, lights[light].position.xyz, p, params.options.y != 0);
-  vec3 turned = vec3(0.0);
-  for (int v = 0; v < VOLUME_COUNT; ++v)
-    turned += scatterer.sigmaS[v] * phaseHenyeyGreenstein(dot(-toLight, towardsViewer), volumes[v].phase.x);
-  return turned * irradiance;
+void appendStep(inout Steps steps, float depth, float scattered[VOLUME_COUNT], vec3 throughput) {
+  int k = steps.count;
+  steps.depth[k] = depth;
+  for (int v = 0; v < VOLUME_COUNT; ++v) steps.scattered[v][k] = scattered[v];
+  for (int c = 0; c < 3; ++c) steps.throughput[c][k] = throughput[c];
+  ++steps.count;
 }
 
-vec3 scattered(Scatterer scatterer, PixelRay ray, float depth) {
-  vec3 p = ray.origin + depth * ray.perDepth;
+// What the media turn from light that travels along `direction` towards the viewer.
+vec3 turned(Steps steps, int k, vec3 direction, vec3 towardsViewer) {
   vec3 sum = vec3(0.0);
-  for (uint light = 0u; light < uint(params.options.z); ++light) {
-    sum += scatteredFrom(light, scatterer, p, ray.towardsViewer);
-    work += 8u;
+  for (int v = 0; v < VOLUME_COUNT; ++v) {
+    float phase = phaseHenyeyGreenstein(dot(direction, towardsViewer), volumes[v].phase.x);
+    sum += volumes[v].albedoScale.rgb * (steps.scattered[v][k] * phase);
   }
+  return sum;
+}
+
+// Radiance that a light adds to the ray over the steps between its front and back depth.
+vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float back) {
+  LightData light = lights[number];
+  bool shadowed = light.indices.y >= 0;
+  bool cube = light.indices.z == 6;
+  ShadowFace face;
+  vec3 start = vec3(0.0);
+  vec3 perDepth = vec3(0.0);
+  if (shadowed) {
+    face = shadowFaces[light.indices.y];
+    start = (face.faceFromWorld * vec4(ray.origin, 1.0)).xyz;
+    perDepth = mat3(face.faceFromWorld) * ray.perDepth;
+  }
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < steps.count; ++k) {
+    float depth = steps.depth[k];
+    if (depth < front || depth > back) continue;
+    vec3 p = ray.origin + depth * ray.perDepth;
+    vec3 toLight;
+    vec3 irradiance = lightFrom(light, p, toLight);
+    if (maxComponent(irradiance) > 0.0) {
+      if (shadowed) {
+        vec3 pFace = start + depth * perDepth;
+        ShadowFace seen = face;
+        if (cube) {
+          // All six look alike but for their axes.
+          int side = faceTowards(6, p - light.position.xyz);
+          seen.texels.x += side * face.texels.y * face.texels.y;
+          pFace = inCubeFace(side, p - light.position.xyz);
+        }
+        irradiance *= shadowInSmoke(seen, pFace, params.options.y != 0);
+      }
+      vec3 throughput = vec3(steps.throughput[0][k], steps.throughput[1][k], steps.throughput[2][k]);
+      sum += throughput * irradiance * turned(steps, k, -toLight, ray.towardsViewer);
+    }
+  }
+  work += uint(8 * STEPS);
+  return sum;
+}
+
+vec3 scattered(Steps steps, PixelRay ray) {
+  vec3 sum = vec3(0.0);
+  for (uint light = 0u; light < uint(params.options.z); ++light) sum += scatteredFrom(light, steps, ray, 0.0, 3e38);
+  float farthest = steps.depth[steps.count - 1];
   uint walked = 0u;
   uint node = lightCellHeads[ray.cell];
-  while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= depth) {
-    if (depth <= lightCellBacks[node]) sum += scatteredFrom(lightCellLinks[node].id, scatterer, p, ray.towardsViewer);
+  while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= farthest) {
+    sum += scatteredFrom(lightCellLinks[node].id, steps, ray, lightCellLinks[node].depth, lightCellBacks[node]);
     node = lightCellLinks[node].next;
     ++walked;
-    work += 8u;
   }
   if (walked == LIGHT_WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
   return sum;
 }
 #endif
+
+// Where the step that begins at `depth` ends. Steps stand at multiples of the stride from where the ray enters the media
+// and are cut at `limit` (a surface), so that adding a pane does not move them.
+float nextStep(float depth, float entry, float stride, float limit) {
+  float index = floor((depth - entry) / stride + 1e-3);
+  float to = min(entry + (index + 1.0) * stride, limit);
+  if (to <= depth) to = min(depth + stride, limit);
+  return to > depth ? to : limit;  // a stride below the rounding of the depth
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -155,34 +210,35 @@ void main() {
     if (node != 0u) nextSurface = surfaceLinks[node].depth;
     bool atSurface = true;
 #ifdef SMOKE
-    float from = max(depth, media.rangeOfAll.x);
+    // Collect the next steps that hold smoke; empty ones cost no more than their density.
+    Steps steps;
+    steps.count = 0;
     float limit = min(nextSurface, media.rangeOfAll.y);
-    if (from < limit) {
-      // Steps stand at multiples of the stride from where the ray enters, cut at surfaces, so that adding a pane does
-      // not move them.
-      float index = floor((from - media.rangeOfAll.x) / stride + 1e-3);
-      float to = min(media.rangeOfAll.x + (index + 1.0) * stride, limit);
-      if (to <= from) to = min(from + stride, limit);
-      if (to <= from) to = limit;  // a stride below the depth's rounding
-      float middle = 0.5 * (from + to);
-      Scatterer scatterer;
+    depth = max(depth, min(media.rangeOfAll.x, nextSurface));
+    while (depth < limit && steps.count < STEPS && work < uint(RESOLVE_WORK_LIMIT)) {
+      ++work;
+      float to = nextStep(depth, media.rangeOfAll.x, stride, limit);
+      float middle = 0.5 * (depth + to);
+      float scattered[VOLUME_COUNT];
       float sigmaT = 0.0;
       for (int v = 0; v < VOLUME_COUNT; ++v) {
-        float sigma = extinctionOf(v, media, middle);
-        sigmaT += sigma;
-        scatterer.sigmaS[v] = sigma * volumes[v].albedoScale.rgb;
+        scattered[v] = extinctionOf(v, media, middle);
+        sigmaT += scattered[v];
       }
       if (sigmaT > 0.0) {
-        float tau = sigmaT * (to - from) * metresPerDepth;
+        float tau = sigmaT * (to - depth) * metresPerDepth;
         float passed = exp(-tau);
         // Integral of exp(-sigmaT s) over the step; its series where the difference would cancel.
-        float length_ = tau > 1e-3 ? (1.0 - passed) / sigmaT : (tau / sigmaT) * (1.0 - 0.5 * tau);
-        radiance += throughput * length_ * scattered(scatterer, ray, middle);
+        float seenLength = tau > 1e-3 ? (1.0 - passed) / sigmaT : (tau / sigmaT) * (1.0 - 0.5 * tau);
+        for (int v = 0; v < VOLUME_COUNT; ++v) scattered[v] *= seenLength;
+        appendStep(steps, middle, scattered, throughput);
         throughput *= passed;
+        if (maxComponent(throughput) < params.march.y) limit = to;
       }
       depth = to;
-      atSurface = false;
     }
+    if (steps.count > 0) radiance += scattered(steps, ray);
+    atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
 #endif
     if (atSurface && node != 0u) {
       PackedSurface stored = surfaceNodes[node];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "pipelines/geometry_gpu.h"
 #include "scene/visible_hull.h"
 #include "shaders/shared/deepshadow.h"
 #include "tests/gl/test_device.h"
@@ -47,22 +48,24 @@ struct ReadMap {
 class MapsGpu : public tests::GpuTest {
  protected:
   ReadMap build(const KnownScene& known, int resolution, double error, double stepVoxels = 0.25) {
-    const scene::GeometryGpu geometry(device(), known.scene);
+    const pipelines::GeometryGpu geometry(device(), known.scene);
     const volumes::VolumesGpu media(device(), known.media);
+    const Casters casters{.opaque = [&] { geometry.draw(pipelines::Layer::Opaque, false); },
+                          .translucent = [&] { geometry.draw(pipelines::Layer::Translucent, false); }};
     const std::vector<dvec3> hull = {{-4, -1, -4}, {4, 4, 4},  {-4, 4, 4},
                                      {4, -1, -4},  {4, -1, 4}, {-4, 4, -4}};
     const Maps maps(device(), {.lights = known.scene.lights,
-                               .geometry = geometry,
+                               .casters = casters,
                                .volumes = media,
                                .receivers = hull,
-                               .casters = hull,
+                               .castingPoints = hull,
                                .resolution = resolution,
                                .stepMetres = media.empty() ? 1 : stepVoxels * media.voxelSize(),
                                .error = error});
     statistics_ = maps.lights().front();
     EXPECT_EQ(maps.cutMarches(), 0u);
     ReadMap map;
-    map.faces = shadowFaces(known.scene.lights.front(), resolution, hull, hull);
+    map.faces = facesOf(known.scene.lights.front(), resolution, hull, hull);
     map.texels = maps.texels().readValues<shared::ShadowTexel>(statistics_.texels);
     map.knots =
         maps.knots().readValues<shared::ShadowKnot>(maps.knots().bytes() / sizeof(shared::ShadowKnot));

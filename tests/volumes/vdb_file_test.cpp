@@ -19,6 +19,13 @@
 #include <openvdb/tools/LevelSetSphere.h>
 #endif
 
+#ifdef __SANITIZE_ADDRESS__
+// OpenVDB does not free the nodes read so far when a block cannot be decompressed.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:readTopology";
+}
+#endif
+
 namespace sfumato::volumes {
 namespace {
 
@@ -70,6 +77,13 @@ openvdb::FloatGrid::Ptr fogGrid(const std::string& name) {
 
 void save(const fs::path& path, const openvdb::GridPtrVec& grids) {
   openvdb::io::File(path.string()).write(grids);
+}
+
+openvdb::FloatGrid::Ptr readWithOpenVdb(const fs::path& path) {
+  openvdb::initialize();
+  openvdb::io::File file(path.string());
+  file.open(false);
+  return openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
 }
 
 // A small cloud over several leaves and both signs of coordinates.
@@ -152,9 +166,7 @@ TEST_F(VdbFile, WritesAFogVolumeThatOpenVdbReads) {
   grid.worldFromIndex[2] = {2, 0, 0, 0};
   writeVdb(path("a.vdb"), grid);
 
-  openvdb::io::File file(path("a.vdb").string());
-  file.open();
-  const auto read = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
+  const auto read = readWithOpenVdb(path("a.vdb"));
   EXPECT_EQ(read->getGridClass(), openvdb::GRID_FOG_VOLUME);
   EXPECT_EQ(read->activeVoxelCount(), 2u);
   EXPECT_EQ(read->getConstAccessor().getValue({11, 21, 32}), 0.75f);
@@ -196,10 +208,7 @@ TEST_F(VdbFile, ReadsHalfFloats) {
   const auto cloud = smallCloud();
   cloud->setSaveFloatAsHalf(true);
   save(path("a.vdb"), {cloud});
-  openvdb::io::File file(path("a.vdb").string());
-  file.open();
-  expectSameValues(readVdb(path("a.vdb"), ""),
-                   *openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density")));
+  expectSameValues(readVdb(path("a.vdb"), ""), *readWithOpenVdb(path("a.vdb")));
 }
 
 TEST_F(VdbFile, ReadsActiveTilesAndSkipsInactiveOnes) {
@@ -463,13 +472,10 @@ class DamagedVdbFile : public VdbFile, public testing::WithParamInterface<uint32
 
 TEST_P(DamagedVdbFile, IsRefusedWhereverItIsCut) {
   const std::string whole = smallFile();
-  expectSameValues(readVdb(path("whole.vdb"), "density"), [&] {
-    openvdb::io::File file(path("whole.vdb").string());
-    file.open();
-    return *openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
-  }());
+  expectSameValues(readVdb(path("whole.vdb"), ""), *readWithOpenVdb(path("whole.vdb")));
   base::Random random(1);
-  for (size_t length = 0; length < whole.size(); length += 1 + random.next() % (length < 1500 ? 8 : 800)) {
+  for (size_t length = 0; length < whole.size();
+       length += 1 + random.next() % (length < 1500 ? 8 : whole.size() / 100)) {
     std::ofstream(path("cut.vdb"), std::ios::binary) << whole.substr(0, length);
     errorOf(ExitCode::Input, [&] { readVdb(path("cut.vdb"), "density"); });
   }
@@ -478,7 +484,7 @@ TEST_P(DamagedVdbFile, IsRefusedWhereverItIsCut) {
 TEST_P(DamagedVdbFile, IsReadOrRefusedWithAnyByteChanged) {
   const std::string whole = smallFile();
   base::Random random(2);
-  constexpr int changes = 400;
+  constexpr int changes = 200;
   for (int i = 0; i < changes; ++i) {
     std::string damaged = whole;
     // Half of the changes go to the names, sizes and masks at the beginning, the others anywhere.
@@ -515,6 +521,10 @@ struct RealFile {
   double voxel;
 };
 
+void PrintTo(const RealFile& file, std::ostream* out) {
+  *out << file.name;
+}
+
 class RealVdbFile : public testing::TestWithParam<RealFile> {};
 
 TEST_P(RealVdbFile, HasTheVoxelsThatItsOwnersState) {
@@ -536,10 +546,7 @@ TEST_P(RealVdbFile, HasTheVoxelsThatItsOwnersState) {
   EXPECT_NEAR(maximum, expected.maximum, 1e-5);
   EXPECT_NEAR(voxelSize(grid.worldFromIndex), expected.voxel, 1e-12);
 
-  openvdb::initialize();
-  openvdb::io::File oracle(file.string());
-  oracle.open();
-  const auto truth = openvdb::gridPtrCast<openvdb::FloatGrid>(oracle.readGrid("density"));
+  const auto truth = readWithOpenVdb(file);
   expectSameValues(grid, *truth);
   const openvdb::Vec3d corner = truth->indexToWorld(openvdb::Vec3d(expected.low.x, 2.5, 100));
   const glm::dvec4 world = grid.worldFromIndex * glm::dvec4(expected.low.x, 2.5, 100, 1);

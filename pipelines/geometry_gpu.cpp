@@ -1,4 +1,4 @@
-#include "scene/geometry_gpu.h"
+#include "pipelines/geometry_gpu.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,17 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/geometry.h"
 
-namespace sfumato::scene {
+namespace sfumato::pipelines {
+
+using scene::AlphaMode;
+using scene::Instance;
+using scene::Material;
+using scene::Mesh;
+using scene::Scene;
+using scene::Texture;
+using scene::TextureUse;
+using scene::Vertex;
+
 namespace {
 
 constexpr gl::VertexAttribute vertexAttributes[] = {
@@ -154,4 +164,4 @@ void GeometryGpu::draw(Layer layer, bool cullBackFaces) const {
   }
 }
 
-}  // namespace sfumato::scene
+}  // namespace sfumato::pipelines

@@ -9,7 +9,7 @@
 #include "gl/texture.h"
 #include "scene/scene.h"
 
-namespace sfumato::scene {
+namespace sfumato::pipelines {
 
 enum class Layer { Opaque, Translucent };
 
@@ -17,7 +17,7 @@ class GeometryGpu {
  public:
   // Uploads what the scene's instances use. Costs 72 bytes a vertex, 4 an index, 4 a texel (a third more with
   // mipmaps).
-  GeometryGpu(gl::Device& device, const Scene& scene);
+  GeometryGpu(gl::Device& device, const scene::Scene& scene);
 
   // Draws every instance of a layer with the current draw state; programs start with
   // shaders/scene/surface.vert. `cullBackFaces`: of materials that are not double-sided.
@@ -33,8 +33,8 @@ class GeometryGpu {
   const std::vector<Draw>& draws(Layer layer) const {
     return layer == Layer::Opaque ? opaque_ : translucent_;
   }
-  void uploadMeshes(gl::Device& device, const Scene& scene);
-  void uploadMaterials(gl::Device& device, const Scene& scene);
+  void uploadMeshes(gl::Device& device, const scene::Scene& scene);
+  void uploadMaterials(gl::Device& device, const scene::Scene& scene);
   void bindTextures(int material) const;
 
   // Textures of a material by unit, index in textures_.
@@ -55,4 +55,4 @@ class GeometryGpu {
   size_t triangles_ = 0;
 };
 
-}  // namespace sfumato::scene
+}  // namespace sfumato::pipelines
