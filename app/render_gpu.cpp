@@ -65,7 +65,7 @@ scene::Camera framingCamera(const scene::Scene& scene, const std::vector<volumes
   const double narrowest = std::atan(std::tan(yfov * 0.5) * std::min(aspect, 1.0));
   const glm::dvec3 away = glm::normalize(glm::dvec3(0.3, 0.35, 1.0)) * (radius / std::sin(narrowest));
   scene::Camera camera = scene::lookAt(centre + away, centre, yfov);
-  camera.nearDistance = std::min(camera.nearDistance, radius * 1e-3);
+  camera.nearDistance = radius * 1e-3;
   return camera;
 }
 

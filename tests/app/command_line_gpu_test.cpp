@@ -192,28 +192,28 @@ TEST_F(CommandLineGpu, NamesTheSmokeThatIsWrong) {
 
 // ---- bad surroundings ------------------------------------------------------------------------------------
 
+// libEGL finds no driver to ask, whatever is installed.
+const Surroundings noEgl{.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}};
+
 TEST_F(CommandLineGpu, SaysThatThereIsNoOpenGl) {
-  const Surroundings noEgl{.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}};
-  const Surroundings noDriver{
-      .environment = {"LIBGL_DRIVERS_PATH=/nonexistent", "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}};
   const auto before = listing(folder.path());
-  for (const Surroundings& surroundings : {noEgl, noDriver}) {
-    expectError(run(draft({"scene.gltf", "-o", "out.png"}), surroundings), 4, "no usable OpenGL 4.3");
-    expectError(run({"info"}, surroundings), 4, "no usable OpenGL 4.3");
-    expectError(run({"info", "--json"}, surroundings), 4, "no usable OpenGL 4.3");
-  }
+  expectError(run(draft({"scene.gltf", "-o", "out.png"}), noEgl), 4, "no usable OpenGL 4.3");
+  expectError(run({"info"}, noEgl), 4, "no usable OpenGL 4.3");
+  expectError(run({"info", "--json"}, noEgl), 4, "no usable OpenGL 4.3");
   EXPECT_EQ(listing(folder.path()), before);
 }
 
-TEST_F(CommandLineRender, SaysThatTheDriverIsTooOld) {
-  if (tests::testDevice()->names().vendor.find("Mesa") == std::string::npos)
-    GTEST_SKIP() << "only Mesa's drivers can be made older, this one is "
-                 << tests::testDevice()->names().renderer;
-  for (const char* older : {"GALLIUM_DRIVER=softpipe", "MESA_GL_VERSION_OVERRIDE=3.3"}) {
-    const Outcome outcome = run(draft({"scene.gltf", "-o", "out.png"}), {.environment = {older}});
-    expectError(outcome, 4, "no OpenGL 4.3 core context");
-  }
+TEST_F(CommandLineRender, SaysThatTheDriverIsTooOldOrMissing) {
+  const gl::DeviceNames& names = tests::testDevice()->names();
+  if (names.version.find("Mesa") == std::string::npos)
+    GTEST_SKIP() << "only Mesa's drivers can be made older, this one is " << names.renderer;
+  const Arguments call = draft({"scene.gltf", "-o", "out.png"});
+  for (const char* older : {"GALLIUM_DRIVER=softpipe", "MESA_GL_VERSION_OVERRIDE=3.3"})
+    expectError(run(call, {.environment = {older}}), 4, "no OpenGL 4.3 core context");
   EXPECT_FALSE(std::filesystem::exists(path("out.png")));
+  const Outcome missing = run(call, {.environment = {"LIBGL_DRIVERS_PATH=/nonexistent"}});
+  if (missing.exitCode != 0)  // Mesa from 24.3 on finds its drivers elsewhere
+    expectError(missing, 4, "eglInitialize failed");
 }
 
 TEST_F(CommandLineRender, SaysWhichDevicesThereAre) {
@@ -233,36 +233,27 @@ TEST_F(CommandLineRender, DrawsAHugeImageOrSaysWhyNot) {
 }
 
 TEST_F(CommandLineRender, LeavesNothingOnAFullDisk) {
-  const auto fullAfter = [](rlim_t bytes) {
-    return [bytes] {
-      std::signal(SIGXFSZ, SIG_IGN);
-      const rlimit limit{bytes, bytes};
-      setrlimit(RLIMIT_FSIZE, &limit);
-    };
-  };
   struct Row {
     std::string name;
-    Arguments arguments;
+    Arguments outputs;
+    rlim_t room;  // bytes of the largest file: in the last row the picture fits and the figures do not
   };
-  for (const Row& row : std::vector<Row>{{"out.png", {"-o", "out.png"}},
-                                         {"out.exr", {"-o", "out.exr"}},
-                                         {"out.json", {"-n", "-o", "out.png", "--stats", "out.json"}}}) {
+  for (const Row& row : std::vector<Row>{{"out.png", {"-o", "out.png"}, 100},
+                                         {"out.exr", {"-o", "out.exr"}, 100},
+                                         {"out.json", {"-o", "fits.png", "--stats", "out.json"}, 2000}}) {
     SCOPED_TRACE(row.name);
     const auto before = listing(folder.path());
+    const auto fillDisk = [&] {
+      std::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{row.room, row.room};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    };
     Arguments arguments = draft({"scene.gltf", "-q"});
-    const bool statistics = row.name == "out.json";
-    if (statistics)
-      arguments.insert(arguments.end(), {"-o", "one.png", "--stats", "out.json"});
-    else
-      arguments.insert(arguments.end(), {"-o", row.name});
-    // A picture of a triangle is smaller than the figures.
-    const Outcome outcome = run(arguments, {.environment = {"MESA_SHADER_CACHE_DISABLE=true"},
-                                            .inChild = fullAfter(statistics ? 1500 : 200)});
-    expectError(outcome, 3, row.name + ": cannot be written");
+    arguments.insert(arguments.end(), row.outputs.begin(), row.outputs.end());
+    expectError(run(arguments, {.inChild = fillDisk}), 3, row.name + ": cannot be written");
     std::set<std::string> left = newNames(before);
-    left.erase("one.png");
+    left.erase("fits.png");
     EXPECT_EQ(left, std::set<std::string>());
-    std::filesystem::remove(path("one.png"));
   }
 }
 
@@ -301,8 +292,10 @@ TEST_F(CommandLineRender, KeepsItsMessagesOutOfItsFiles) {
   const auto fullStderr = [] { dup2(open("/dev/full", O_WRONLY), STDERR_FILENO); };
   render({"scene.gltf", "-v", "-o", "closed.exr"}, "64x48", {.inChild = closeAll});
   render({"scene.gltf", "-v", "-o", "full.exr"}, "64x48", {.inChild = fullStderr});
-  EXPECT_EQ(contentOf(path("closed.exr")), contentOf(path("plain.exr")));
-  EXPECT_EQ(contentOf(path("full.exr")), contentOf(path("plain.exr")));
+  for (const char* name : {"closed.exr", "full.exr"}) {  // their dates may differ, so bytes are not compared
+    EXPECT_EQ(picture(name).values, picture("plain.exr").values);
+    EXPECT_EQ(contentOf(path(name)).size(), contentOf(path("plain.exr")).size());
+  }
 }
 
 // ---- odd scenes ------------------------------------------------------------------------------------------
@@ -451,7 +444,6 @@ TEST_F(CommandLineRender, WritesFigures) {
 }
 
 TEST_F(CommandLineGpu, PlansWithoutOpenGl) {
-  const Surroundings noEgl{.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}};
   const auto before = listing(folder.path());
   const Outcome outcome = run(draft({"scene.gltf", "-n", "-o", "out.png", "--stats", "out.json"}), noEgl);
   EXPECT_EQ(outcome.exitCode, 0);
