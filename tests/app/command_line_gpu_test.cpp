@@ -269,7 +269,7 @@ TEST_F(CommandLineRender, WritesIntoAPipeAndLeavesItOne) {
   EXPECT_TRUE(Json::accept(text.substr(0, static_cast<size_t>(count))));
   EXPECT_TRUE(std::filesystem::is_fifo(path("figures")));
 
-  const Outcome outcome = run(draft({"scene.gltf", "-q", "-o", "out.png", "--stats", "/dev/stdout"}));
+  const Outcome outcome = run(draft({"scene.gltf", "-q", "-o", "out.png", "--stats", "/proc/self/fd/1"}));
   EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
   EXPECT_TRUE(Json::accept(outcome.out)) << outcome.out;
 }
