@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/geometry.h"
 
 namespace sfumato::pipelines {
 
@@ -34,7 +33,7 @@ struct UsedTexture {
   bool srgb;
 };
 
-std::array<UsedTexture, 7> usedTextures(const Material& m) {
+std::array<UsedTexture, MATERIAL_TEXTURES> usedTextures(const Material& m) {
   return {{{m.baseColourTexture, TEXTURE_BASE_COLOUR, true},
            {m.metallicRoughnessTexture, TEXTURE_METALLIC_ROUGHNESS, false},
            {m.normalTexture, TEXTURE_NORMAL, false},
@@ -53,7 +52,11 @@ shared::MaterialData materialData(const Material& material) {
   if (material.alphaMode == AlphaMode::Mask) data.flags.x |= MATERIAL_MASK;
   if (material.alphaMode == AlphaMode::Blend) data.flags.x |= MATERIAL_BLEND;
   if (material.normalTexture.texture >= 0) data.flags.x |= MATERIAL_NORMAL_MAP;
-  for (const UsedTexture& used : usedTextures(material)) data.flags.y |= used.use.uvSet << used.unit;
+  for (const UsedTexture& used : usedTextures(material)) {
+    data.flags.y |= used.use.uvSet << used.unit;
+    const glm::mat2x3 rows = glm::transpose(used.use.textureFromUv);
+    for (int row = 0; row < 2; ++row) data.uvTransforms[2 * used.unit + row] = glm::vec4(rows[row], 0);
+  }
   return data;
 }
 

@@ -37,9 +37,12 @@ constexpr size_t maxInstances = size_t{1} << 22;  // drawn primitives
 constexpr uint64_t maxExternalBytes = uint64_t{4} << 30;
 constexpr uint64_t maxTextureBytes = uint64_t{4} << 30;
 
+constexpr const char* textureTransform = "KHR_texture_transform";
+
 const std::set<std::string> supportedExtensions = {
     "KHR_lights_punctual", "KHR_materials_transmission",      "KHR_materials_specular",
     "KHR_materials_ior",   "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+    textureTransform,
 };
 
 // Says what is wrong with a file, in one line that starts with its path.
@@ -128,17 +131,18 @@ std::string text(const Faults& faults, const Value& object, const char* key, con
   return value.Get<std::string>();
 }
 
-glm::dvec3 triple(const Faults& faults, const Value& object, const char* key, const glm::dvec3& otherwise,
-                  const std::string& where) {
+template <int n>
+glm::vec<n, double> numbers(const Faults& faults, const Value& object, const char* key,
+                            const glm::vec<n, double>& otherwise, const std::string& where) {
   if (!object.Has(key)) return otherwise;
   const Value& value = object.Get(key);
-  glm::dvec3 result;
-  bool good = value.ArrayLen() == 3;
-  for (int i = 0; good && i < 3; ++i) {
+  glm::vec<n, double> result;
+  bool good = value.ArrayLen() == n;
+  for (int i = 0; good && i < n; ++i) {
     good = value.Get(i).IsNumber();
     result[i] = value.Get(i).GetNumberAsDouble();
   }
-  if (!good) faults.fail("{}: {} is not three numbers: give [r, g, b]", where, key);
+  if (!good) faults.fail("{}: {} is not an array of {} numbers: give that many", where, key, n);
   return result;
 }
 
@@ -498,7 +502,7 @@ class Materials {
       to.specular =
           faults_.fraction(number(faults_, *extension, "specularFactor", 1, where), where, "specularFactor");
       to.specularTexture = use(*extension, "specularTexture", where);
-      const glm::dvec3 colour = triple(faults_, *extension, "specularColorFactor", glm::dvec3(1), where);
+      const glm::dvec3 colour = numbers(faults_, *extension, "specularColorFactor", glm::dvec3(1), where);
       for (int c = 0; c < 3; ++c)
         to.specularColour[c] =
             static_cast<float>(faults_.notNegative(colour[c], where, "specularColorFactor"));
@@ -516,24 +520,52 @@ class Materials {
   TextureUse use(const Value& extension, const char* key, const std::string& where) {
     if (!extension.Has(key)) return {};
     const Value& info = extension.Get(key);
-    return use(index(faults_, info, "index", -1, where), index(faults_, info, "texCoord", 0, where), where);
+    const Value none;
+    const Value& extensions = info.Has("extensions") ? info.Get("extensions") : none;
+    const Value& transform = extensions.Has(textureTransform) ? extensions.Get(textureTransform) : none;
+    return use(index(faults_, info, "index", -1, where), index(faults_, info, "texCoord", 0, where),
+               transform, where);
   }
 
   template <typename TextureInfo>
   TextureUse use(const TextureInfo& info, const std::string& where) {
-    return info.index == -1 ? TextureUse{} : use(info.index, info.texCoord, where);
+    if (info.index == -1) return {};
+    const Value* transform = find(info.extensions, textureTransform);
+    return use(info.index, info.texCoord, transform ? *transform : Value(), where);
   }
 
-  TextureUse use(int textureIndex, int uvSet, const std::string& where) {
-    if (uvSet != 0 && uvSet != 1)
-      faults_.fail("{}: uses TEXCOORD_{}: only 0 and 1 are supported", where, uvSet);
+  // `transform`: the texture info's KHR_texture_transform, an object or nothing.
+  TextureUse use(int textureIndex, int uvSet, const Value& transform, const std::string& where) {
+    TextureUse use;
+    use.uvSet = index(faults_, transform, "texCoord", uvSet, where);
+    if (use.uvSet != 0 && use.uvSet != 1)
+      faults_.fail("{}: uses TEXCOORD_{}: only 0 and 1 are supported", where, use.uvSet);
+    use.textureFromUv = textureFromUv(transform, where);
+    use.texture = textureOf(textureIndex, where);
+    return use;
+  }
+
+  // Scaled, then turned counter-clockwise on the picture (where v falls), then moved.
+  glm::mat3x2 textureFromUv(const Value& transform, const std::string& where) const {
+    const glm::dvec2 offset = numbers(faults_, transform, "offset", glm::dvec2(0), where);
+    const glm::dvec2 scale = numbers(faults_, transform, "scale", glm::dvec2(1), where);
+    const double angle =
+        faults_.finite(number(faults_, transform, "rotation", 0, where), where, "texture rotation");
+    for (int i = 0; i < 2; ++i) {
+      faults_.finite(offset[i], where, "texture offset");
+      faults_.finite(scale[i], where, "texture scale");
+    }
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    return glm::dmat3x2(scale.x * glm::dvec2(cosine, -sine), scale.y * glm::dvec2(sine, cosine), offset);
+  }
+
+  // The scene's texture for one of the file, decoded when first asked for.
+  int textureOf(int textureIndex, const std::string& where) {
     const auto known = textures_.find(textureIndex);
-    if (known != textures_.end()) return {known->second, uvSet};
+    if (known != textures_.end()) return known->second;
     const tinygltf::Texture& from = faults_.at(model_.textures, textureIndex, where, "texture");
     scene_.textures.push_back(read(from, label("texture", static_cast<size_t>(textureIndex), from.name)));
-    const int added = static_cast<int>(scene_.textures.size()) - 1;
-    textures_[textureIndex] = added;
-    return {added, uvSet};
+    return textures_[textureIndex] = static_cast<int>(scene_.textures.size()) - 1;
   }
 
   Texture read(const tinygltf::Texture& from, const std::string& where) {
@@ -690,7 +722,7 @@ class Meshes {
     if (hasTangents)
       normaliseTangents(mesh);
     else if (normalTexture.texture != -1)
-      computeTangents(mesh, normalTexture.uvSet);
+      computeTangents(mesh, normalTexture);
     return mesh;
   }
 
@@ -1002,7 +1034,7 @@ VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm:
   volume.gridName = text(faults, extras, "volume_grid", where);
   volume.scale =
       faults.notNegative(number(faults, extras, "volume_scale", volume.scale, where), where, "volume_scale");
-  volume.albedo = triple(faults, extras, "volume_albedo", volume.albedo, where);
+  volume.albedo = numbers(faults, extras, "volume_albedo", volume.albedo, where);
   for (int c = 0; c < 3; ++c) faults.inRange(volume.albedo[c], 0, 1, where, "volume_albedo");
   volume.g = number(faults, extras, "volume_g", volume.g, where);
   if (!(std::abs(volume.g) < 1)) faults.fail("{}: volume_g is {}: give a value in (-1, 1)", where, volume.g);

@@ -44,8 +44,9 @@ struct Texture {
 };
 
 struct TextureUse {
-  int texture = -1;  // index in Scene::textures, -1: none (reads as 1, or a flat normal)
-  int uvSet = 0;     // 0 or 1
+  int texture = -1;                // index in Scene::textures, -1: none (reads as 1, or a flat normal)
+  int uvSet = 0;                   // 0 or 1
+  glm::mat3x2 textureFromUv{1.f};  // affine: what stands to the left of (u, v, 1)
 };
 
 enum class AlphaMode { Opaque, Mask, Blend };

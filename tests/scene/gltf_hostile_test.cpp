@@ -74,7 +74,10 @@ GltfBuilder everything() {
       {{"name", "paint"},
        {"pbrMetallicRoughness",
         {{"baseColorFactor", {1, 1, 1, 1}}, {"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.5}}},
-       {"normalTexture", {{"index", 0}}},
+       {"normalTexture",
+        {{"index", 0},
+         {"extensions",
+          {{"KHR_texture_transform", {{"offset", {0.5, 0.5}}, {"rotation", 0.5}, {"scale", {2, 2}}}}}}}},
        {"alphaMode", "BLEND"},
        {"emissiveFactor", {0, 0, 1}},
        {"extensions",
@@ -138,6 +141,9 @@ Json& orthographic(Json& j) {
 Json& extension(Json& j, const char* name) {
   return j["materials"][0]["extensions"][name];
 }
+Json& textureTransform(Json& j) {
+  return j["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"];
+}
 Json sparse(int count, int indexView, int indexType, int valueView) {
   return {{"count", count},
           {"indices", {{"bufferView", indexView}, {"componentType", indexType}}},
@@ -168,6 +174,13 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"texture info is a number",
        [](Json& j) { extension(j, "KHR_materials_transmission")["transmissionTexture"] = 3; }, "texture -1"},
       {"uv set", [](Json& j) { j["materials"][0]["normalTexture"]["texCoord"] = 2; }, "TEXCOORD_2"},
+      {"texture offset of three", [](Json& j) { textureTransform(j)["offset"] = {1, 2, 3}; },
+       "offset is not an array of 2 numbers"},
+      {"texture scale too large", [](Json& j) { textureTransform(j)["scale"] = {1e300, 1}; }, "texture scale is 1e+300"},
+      {"texture rotation is text", [](Json& j) { textureTransform(j)["rotation"] = "left"; },
+       "rotation is not a number"},
+      {"texture rotation beyond 32 bits", [](Json& j) { textureTransform(j)["rotation"] = 5000000000; }, "rotation"},
+      {"texture transform's uv set", [](Json& j) { textureTransform(j)["texCoord"] = 7; }, "TEXCOORD_7"},
       {"image", [](Json& j) { j["textures"][0]["source"] = 4; }, "there is no image 4"},
       {"no image", [](Json& j) { j["textures"][0].erase("source"); }, "there is no image -1"},
       {"sampler", [](Json& j) { j["textures"][0]["sampler"] = 4; }, "there is no sampler 4"},
@@ -358,7 +371,7 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
        [](Json& j) { extension(j, "KHR_materials_transmission")["transmissionFactor"] = "full"; },
        "transmissionFactor is not a number"},
       {"specular colour", [](Json& j) { extension(j, "KHR_materials_specular")["specularColorFactor"] = {1, 1}; },
-       "not three numbers"},
+       "not an array of 3 numbers"},
       {"ior", [](Json& j) { extension(j, "KHR_materials_ior")["ior"] = 0.5; }, "ior is 0.5"},
 
       // Volumes.
@@ -370,9 +383,9 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"scale beyond 32 bits", [](Json& j) { volume(j)["volume_scale"] = 5000000000; }, "volume_scale"},
       {"albedo above 1", [](Json& j) { volume(j)["volume_albedo"] = {0, 0, 1.01}; }, "volume_albedo is 1.01"},
       {"albedo below 0", [](Json& j) { volume(j)["volume_albedo"] = {0, -0.5, 1}; }, "volume_albedo is -0.5"},
-      {"albedo is a number", [](Json& j) { volume(j)["volume_albedo"] = 0.5; }, "not three numbers"},
-      {"albedo of four", [](Json& j) { volume(j)["volume_albedo"] = {0, 0, 0, 0}; }, "not three numbers"},
-      {"albedo with text", [](Json& j) { volume(j)["volume_albedo"] = {0, "x", 0}; }, "not three numbers"},
+      {"albedo is a number", [](Json& j) { volume(j)["volume_albedo"] = 0.5; }, "not an array of 3 numbers"},
+      {"albedo of four", [](Json& j) { volume(j)["volume_albedo"] = {0, 0, 0, 0}; }, "not an array of 3 numbers"},
+      {"albedo with text", [](Json& j) { volume(j)["volume_albedo"] = {0, "x", 0}; }, "not an array of 3 numbers"},
       {"g of 1", [](Json& j) { volume(j)["volume_g"] = 1; }, "volume_g is 1"},
       {"g of -1", [](Json& j) { volume(j)["volume_g"] = -1.0; }, "volume_g is -1"},
       {"g is true", [](Json& j) { volume(j)["volume_g"] = true; }, "volume_g is not a number"},

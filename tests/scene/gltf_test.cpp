@@ -510,6 +510,47 @@ TEST(GltfMaterial, TexturesWithSamplersAndUvSets) {
   EXPECT_EQ(m.specularColourTexture.texture, m.baseColourTexture.texture);
 }
 
+// Where the use reads its texture for a vertex's (u, v).
+glm::dvec2 inTexture(const TextureUse& use, double u, double v) {
+  return glm::dmat3x2(use.textureFromUv) * glm::dvec3(u, v, 1);
+}
+
+TEST(GltfMaterial, TextureTransforms) {
+  if (!test::hasOpenImageIO()) GTEST_SKIP() << "this build has no OpenImageIO";
+  const auto transform = [](Json value) {
+    return Json{{"index", 0}, {"extensions", {{"KHR_texture_transform", std::move(value)}}}};
+  };
+  const double quarter = std::numbers::pi / 2;
+  GltfBuilder gltf = withMaterial(
+      {{"pbrMetallicRoughness",
+        {{"baseColorTexture", transform({{"offset", {0.25, 0.5}}})},
+         {"metallicRoughnessTexture", transform({{"rotation", quarter}})}}},
+       {"normalTexture", transform({{"scale", {2, 3}}})},
+       {"emissiveTexture",
+        transform({{"offset", {0.5, 0.25}}, {"rotation", quarter}, {"scale", {2, 4}}, {"texCoord", 1}})},
+       {"extensions",
+        {{"KHR_materials_transmission", {{"transmissionTexture", transform({{"offset", {7, 8}}})}}},
+         {"KHR_materials_specular", {{"specularTexture", {{"index", 0}}}}}}}});
+  addPng(gltf, 10);
+  gltf.add("textures", {{"source", 0}});
+  gltf.json["extensionsRequired"] = gltf.json["extensionsUsed"] = {"KHR_texture_transform"};
+  const Material m = load(gltf).materials[0];
+  const auto expectAt = [](const TextureUse& use, double u, double v, double uTexture, double vTexture) {
+    EXPECT_NEAR(inTexture(use, u, v).x, uTexture, 1e-6);
+    EXPECT_NEAR(inTexture(use, u, v).y, vTexture, 1e-6);
+  };
+  expectAt(m.baseColourTexture, 0.1, 0.2, 0.35, 0.7);
+  // Counter-clockwise on the picture, whose v falls: right goes to the top.
+  expectAt(m.metallicRoughnessTexture, 1, 0, 0, -1);
+  expectAt(m.metallicRoughnessTexture, 0, 1, 1, 0);
+  expectAt(m.normalTexture, 0.1, 0.2, 0.2, 0.6);
+  expectAt(m.emissiveTexture, 1, 0, 0.5, -1.75);  // (2, 0), (0, -2), (0.5, -1.75)
+  expectAt(m.emissiveTexture, 0, 1, 4.5, 0.25);   // (0, 4), (4, 0), (4.5, 0.25)
+  EXPECT_EQ(m.emissiveTexture.uvSet, 1);
+  expectAt(m.transmissionTexture, 0, 0, 7, 8);
+  expectAt(m.specularTexture, 0.1, 0.2, 0.1, 0.2);
+}
+
 TEST(GltfMaterial, PicturesFromDataUriAndFile) {
   if (!test::hasOpenImageIO()) GTEST_SKIP() << "this build has no OpenImageIO";
   const std::vector<uint8_t> rows = {77};

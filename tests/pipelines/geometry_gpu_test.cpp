@@ -1,0 +1,121 @@
+// What meshes and materials look like on the GPU: against the CPU reference, and known answers of its own.
+#include "pipelines/geometry_gpu.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "image/metrics.h"
+#include "pipelines/linked_lists_gpu.h"
+#include "pipelines/reference.h"
+#include "shaders/shared/bindings.h"
+#include "tests/gl/test_device.h"
+#include "tests/pipelines/known_scenes.h"
+
+namespace sfumato::pipelines {
+namespace {
+
+using scene::Material;
+using scene::Scene;
+using scene::Texture;
+using scene::TextureUse;
+using scene::Wrap;
+
+constexpr int width = 96;
+constexpr int height = 72;
+
+class GeometryOnGpu : public tests::GpuTest {
+ protected:
+  image::Image draw(const Scene& scene) {
+    LinkedListsPipeline pipeline(device(), scene, {});
+    return pipeline.render(scene.cameras[0], width, height, {.shadowResolution = 1024}).radiance;
+  }
+
+  // Few pixels are off by more than 2 % of the mean plus 2 % of themselves: those at the edges of texels that
+  // are not filtered. Texture units filter with 8 bits.
+  void expectAsReference(const Scene& scene) {
+    const image::Image image = draw(scene);
+    const image::Image reference =
+        renderReference(scene, scene.cameras[0], {}, {.width = width, .height = height});
+    const image::Difference difference = image::compare(image, reference);
+    const double mean = difference.rmse / difference.relativeRmse;
+    size_t failing = 0;
+    for (size_t i = 0; i < image.values.size(); ++i) {
+      const double off = std::abs(double(image.values[i]) - double(reference.values[i]));
+      failing += !(off <= 0.02 * (mean + std::abs(double(reference.values[i]))));
+    }
+    const double fraction = static_cast<double>(failing) / static_cast<double>(image.values.size());
+    fmt::print("failing {:.4f}, mean ratio {:.5f}, mean {:.3f}\n", fraction, difference.meanRatio, mean);
+    EXPECT_LT(fraction, 0.005);
+    EXPECT_NEAR(difference.meanRatio, 1.0, 0.002);
+    EXPECT_GT(mean, 0.05) << "there is something to compare";
+  }
+};
+
+// Every channel of every texel is its own.
+Texture noise(int side, uint64_t seed) {
+  base::Random random(seed);
+  Texture texture{.name = "noise", .width = side, .height = side, .rgba = {}};
+  for (int i = 0; i < side * side * 4; ++i)
+    texture.rgba.push_back(static_cast<uint8_t>(random.uniform(64, 256)));
+  return texture;
+}
+
+// Scaled, turned and moved.
+glm::mat3x2 transform(double scale, double angle, const glm::vec2& offset) {
+  const auto c = static_cast<float>(scale * std::cos(angle)), s = static_cast<float>(scale * std::sin(angle));
+  return {c, -s, s, c, offset.x, offset.y};
+}
+
+// Sun from above the right shoulder of a camera that sees 3.2 m x 2.4 m of the plane z = 0.
+Scene emptyStage() {
+  Scene scene;
+  scene.lights.push_back(tests::directionalLight({-1, -1, -2}, {3, 3, 3}));
+  scene.cameras.push_back(tests::orthographicCamera({0, 0, 4}, {0, 0, 0}, 1.2));
+  return scene;
+}
+
+// The quad of column 0 to 3 and row 0 or 1, whose two uv sets differ.
+scene::Mesh tile(int column, int row) {
+  scene::Mesh mesh = tests::quad({-1.56f + 0.8f * column, -1.1f + 1.2f * row, 0}, {0.7f, 0, 0}, {0, 1, 0});
+  for (scene::Vertex& v : mesh.vertices) v.uv1 = {v.uv0.y * 1.5f, 1 - v.uv0.x};
+  return mesh;
+}
+
+TEST_F(GeometryOnGpu, EveryTextureUseHasItsOwnTransform) {
+  Scene scene = emptyStage();
+  // A wall, for what is let through.
+  tests::add(scene, tests::quad({-4, -4, -1}, {8, 0, 0}, {0, 8, 0}), tests::glowing({0.5f, 1, 2}));
+  TextureUse Material::*const uses[] = {&Material::baseColourTexture,    &Material::metallicRoughnessTexture,
+                                        &Material::normalTexture,        &Material::emissiveTexture,
+                                        &Material::transmissionTexture,  &Material::specularTexture,
+                                        &Material::specularColourTexture};
+  constexpr Wrap wraps[] = {Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat};
+  for (int i = 0; i < MATERIAL_TEXTURES; ++i) {
+    Material material = tests::lambert({0.6f, 0.7f, 0.8f});
+    material.specular = 1;
+    material.roughness = 0.6f;
+    if (uses[i] == &Material::emissiveTexture) material.emissive = {1, 2, 3};
+    if (uses[i] == &Material::transmissionTexture) material.transmission = 1;
+    if (uses[i] == &Material::metallicRoughnessTexture) material.metallic = 1;
+    if (uses[i] == &Material::specularColourTexture) material.specularColour = {8, 8, 8};
+    material.*uses[i] = {.texture = i,
+                         .uvSet = i % 2,
+                         .textureFromUv = transform(1.2 + 0.1 * i, 0.4 + 0.5 * i, {0.3f * i, -0.2f * i})};
+    Texture texture = noise(4, static_cast<uint64_t>(i));
+    texture.wrapS = wraps[i % 3];
+    texture.wrapT = wraps[(i + 1) % 3];
+    texture.nearest = i == 3;
+    scene.textures.push_back(texture);
+    tests::add(scene, tile(i % 4, i / 4), material);
+  }
+  Material cut = tests::cutOut({1, 1, 1}, 1, 0.6f);
+  cut.baseColourTexture = {.texture = 0, .textureFromUv = transform(1.5, 1, {0.25f, 0.5f})};
+  tests::add(scene, tile(3, 1), cut);
+  expectAsReference(scene);
+}
+
+}  // namespace
+}  // namespace sfumato::pipelines
