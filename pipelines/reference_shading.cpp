@@ -124,6 +124,11 @@ Reflector reflectorAt(const Scene& scene, const Material& material, const Surfac
 
   Reflector reflector;
   reflector.alpha = coverage.alpha;
+  if (material.unlit) {
+    reflector.emitted = coverage.alpha * coverage.baseColour;
+    reflector.specular90 = 0;
+    return reflector;
+  }
   reflector.diffuse = coverage.baseColour * (1 - metallic) * coverage.alpha * (1 - coverage.transmission);
   reflector.roughness = std::clamp(material.roughness * metallicRoughness.g, smallestRoughness, 1.0);
   reflector.specular0 = glm::mix(dielectric0, coverage.baseColour, metallic);

@@ -40,8 +40,13 @@ constexpr uint64_t maxTextureBytes = uint64_t{4} << 30;
 constexpr const char* textureTransform = "KHR_texture_transform";
 
 const std::set<std::string> supportedExtensions = {
-    "KHR_lights_punctual", "KHR_materials_transmission",      "KHR_materials_specular",
-    "KHR_materials_ior",   "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+    "KHR_lights_punctual",
+    "KHR_materials_transmission",
+    "KHR_materials_specular",
+    "KHR_materials_ior",
+    "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization",
+    "KHR_materials_unlit",
     textureTransform,
 };
 
@@ -477,7 +482,8 @@ class Materials {
           faults_.notNegative(from.emissiveFactor[static_cast<size_t>(c)], where, "emissiveFactor");
       to.emissive[c] = static_cast<float>(faults_.notNegative(factor * strength, where, "the emission"));
     }
-    readTransmission(from, to, where);
+    to.unlit = find(from.extensions, "KHR_materials_unlit") != nullptr;
+    if (!to.unlit) readTransmission(from, to, where);
     readSpecular(from, to, where);
     return to;
   }
@@ -588,9 +594,38 @@ class Materials {
       const tinygltf::Sampler& sampler = faults_.at(model_.samplers, from.sampler, where, "sampler");
       to.wrapS = wrap(sampler.wrapS, where);
       to.wrapT = wrap(sampler.wrapT, where);
-      to.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+      to.nearest = isNearest(sampler.magFilter, where);
+      to.minify = minify(sampler.minFilter, where);
     }
     return to;
+  }
+
+  static constexpr int noFilter = -1;  // tinygltf's: the choice is ours
+
+  bool isNearest(int filter, const std::string& where) const {
+    if (filter == TINYGLTF_TEXTURE_FILTER_NEAREST) return true;
+    if (filter == TINYGLTF_TEXTURE_FILTER_LINEAR || filter == noFilter) return false;
+    faults_.fail("{}: magFilter {} is unknown: export it again", where, filter);
+  }
+
+  Minify minify(int filter, const std::string& where) const {
+    switch (filter) {
+      case TINYGLTF_TEXTURE_FILTER_NEAREST:
+        return Minify::Nearest;
+      case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        return Minify::Linear;
+      case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        return Minify::NearestMipmapNearest;
+      case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        return Minify::LinearMipmapNearest;
+      case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+        return Minify::NearestMipmapLinear;
+      case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+      case noFilter:
+        return Minify::LinearMipmapLinear;
+      default:
+        faults_.fail("{}: minFilter {} is unknown: export it again", where, filter);
+    }
   }
 
   Wrap wrap(int mode, const std::string& where) const {

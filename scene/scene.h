@@ -31,6 +31,16 @@ using lights::LightType;
 
 enum class Wrap { Repeat, ClampToEdge, MirroredRepeat };
 
+// How a texture is read where it is smaller on screen: filter within a level, then between levels.
+enum class Minify {
+  Nearest,
+  Linear,
+  NearestMipmapNearest,
+  LinearMipmapNearest,
+  NearestMipmapLinear,
+  LinearMipmapLinear
+};
+
 // 8-bit RGBA as stored in the file; the use says whether RGB is sRGB (base colour, emissive, specular
 // colour).
 struct Texture {
@@ -41,6 +51,7 @@ struct Texture {
   Wrap wrapS = Wrap::Repeat;
   Wrap wrapT = Wrap::Repeat;
   bool nearest = false;  // magnification filter
+  Minify minify = Minify::LinearMipmapLinear;
 };
 
 struct TextureUse {
@@ -72,6 +83,7 @@ struct Material {
   TextureUse specularTexture;  // A
   glm::vec3 specularColour{1.f};
   TextureUse specularColourTexture;
+  bool unlit = false;  // emits its base colour times alpha and reflects nothing, whatever stands above
 
   // Lets light through (BLEND or transmissive), so it lives in lists, not in the G-buffer.
   bool translucent() const { return alphaMode == AlphaMode::Blend || transmission > 0.f; }

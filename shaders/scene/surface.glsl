@@ -44,6 +44,11 @@ PackedSurface packSurface(vec4 base) {
   vec3 diffuse = base.rgb * ((1.0 - metallic) * base.a * (1.0 - tau));
   vec3 f0 = mix(min(0.04 * specularColour, 1.0) * specular, base.rgb, metallic) * base.a;
   float f90 = mix(specular, 1.0, metallic) * base.a;
+  if ((material.flags.x & MATERIAL_UNLIT) != 0) {
+    emissive = base.rgb * base.a;
+    diffuse = f0 = vec3(0.0);
+    f90 = 0.0;
+  }
   vec3 pass = passThrough(base, tau);
   vec3 geometric = geometricNormal();
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/random.h"
 #include "image/metrics.h"
@@ -115,6 +116,87 @@ TEST_F(GeometryOnGpu, EveryTextureUseHasItsOwnTransform) {
   cut.baseColourTexture = {.texture = 0, .textureFromUv = transform(1.5, 1, {0.25f, 0.5f})};
   tests::add(scene, tile(3, 1), cut);
   expectAsReference(scene);
+}
+
+TEST_F(GeometryOnGpu, UnlitShowsItsColourAndCastsShadows) {
+  Scene scene = emptyStage();
+  scene.lights[0] = tests::directionalLight({0, 0, -1}, {3, 3, 3});
+  tests::add(scene, tests::quad({-4, -4, -1}, {8, 0, 0}, {0, 8, 0}), tests::lambert({1, 1, 1}));
+  const auto addUnlit = [&](int column, Material material) {
+    material.unlit = true;
+    material.specular = 1;
+    material.emissive = {7, 7, 7};  // does not count
+    tests::add(scene, tile(column, 0), material);
+  };
+  addUnlit(0, tests::lambert({0.25f, 0.5f, 0.75f}));
+  addUnlit(1, tests::veil({0.25f, 0.5f, 0.75f}, 0.5f));
+  addUnlit(2, tests::cutOut({0.25f, 0.5f, 0.75f}, 0.25f, 0.5f));
+  const image::Image image = draw(scene);
+  const double wall = 3 / std::numbers::pi;
+  const auto expectPixel = [&](int x, const glm::dvec3& radiance) {
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR(image.pixel(x, 54)[channel], radiance[channel], 2e-3) << "at " << x;
+  };
+  expectPixel(11, {0.25, 0.5, 0.75});
+  expectPixel(35, glm::dvec3(0.125, 0.25, 0.375) + 0.25 * wall);  // half of the light twice
+  expectPixel(59, glm::dvec3(wall));                              // cut
+  expectPixel(83, glm::dvec3(wall));
+  // The sun moved: the opaque tile's shadow falls beside it.
+  scene.lights[0] = tests::directionalLight({0, 1, -1}, {3, 3, 3});
+  expectAsReference(scene);
+}
+
+// A texture of 2 x 2-texel checks: level 1 is checks of one texel, all levels above are grey.
+Texture checks(scene::Minify minify) {
+  Texture texture{.name = "checks", .width = 64, .height = 64, .rgba = {}};
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const uint8_t value = (x / 2 + y / 2) % 2 == 0 ? 255 : 0;
+      texture.rgba.insert(texture.rgba.end(), {value, value, value, 255});
+    }
+  texture.minify = minify;
+  return texture;
+}
+
+TEST_F(GeometryOnGpu, MinifiesAsTheSamplerSays) {
+  using scene::Minify;
+  // Red as transmission 1 through a pane sees it (linear data) of a texture that is `level` levels too fine.
+  const auto drawn = [&](Minify minify, double level) {
+    Scene scene;
+    scene.cameras.push_back(tests::orthographicCamera({0, 0, 4}, {0, 0, 0}, 1.2));
+    tests::add(scene, tests::quad({-4, -4, -1}, {8, 0, 0}, {0, 8, 0}), tests::glowing({1, 1, 1}));
+    scene.textures.push_back(checks(minify));
+    Material pane = tests::pane({1, 1, 1});
+    const double texelsPerMetre = 72 / 2.4 * std::exp2(level);
+    pane.transmissionTexture = {.texture = 0,
+                                .textureFromUv = transform(3.2 * texelsPerMetre / 64, 0, {0.003f, 0.004f})};
+    tests::add(scene, tests::quad({-1.6f, -1.6f, 0}, {3.2f, 0, 0}, {0, 3.2f, 0}), pane);
+    const image::Image image = draw(scene);
+    std::vector<float> red;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) red.push_back(image.pixel(x, y)[0]);
+    return red;
+  };
+  const auto near = [](float value, float expected) { return std::abs(value - expected) < 0.02f; };
+  const auto all = [](const std::vector<float>& values, auto holds) {
+    return std::ranges::all_of(values, holds);
+  };
+  const auto isCheck = [&](float v) { return near(v, 0) || near(v, 1); };
+  const auto isGrey = [&](float v) { return near(v, 0.5f); };
+  EXPECT_TRUE(all(drawn(Minify::Nearest, 1.8), isCheck));
+  const std::vector<float> linear = drawn(Minify::Linear, 1.8);
+  EXPECT_FALSE(all(linear, isCheck));
+  EXPECT_TRUE(std::ranges::any_of(linear, isCheck));
+  EXPECT_TRUE(all(drawn(Minify::NearestMipmapNearest, 1.2), isCheck));
+  EXPECT_TRUE(all(drawn(Minify::NearestMipmapNearest, 1.8), isGrey));
+  EXPECT_FALSE(all(drawn(Minify::LinearMipmapNearest, 1.2), isCheck));
+  EXPECT_TRUE(all(drawn(Minify::LinearMipmapNearest, 1.8), isGrey));
+  EXPECT_TRUE(all(drawn(Minify::NearestMipmapLinear, 1.5),
+                  [&](float v) { return near(v, 0.25f) || near(v, 0.75f); }));
+  const std::vector<float> trilinear = drawn(Minify::LinearMipmapLinear, 1.5);
+  EXPECT_TRUE(all(trilinear, [](float v) { return v > 0.23f && v < 0.77f; }));
+  EXPECT_FALSE(all(trilinear, [&](float v) { return near(v, 0.25f) || near(v, 0.75f); }));
+  EXPECT_TRUE(all(drawn(Minify::LinearMipmapLinear, 2.5), isGrey));
 }
 
 }  // namespace

@@ -185,6 +185,8 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"no image", [](Json& j) { j["textures"][0].erase("source"); }, "there is no image -1"},
       {"sampler", [](Json& j) { j["textures"][0]["sampler"] = 4; }, "there is no sampler 4"},
       {"wrap", [](Json& j) { j["samplers"][0]["wrapS"] = 1; }, "wrap mode 1"},
+      {"magFilter", [](Json& j) { j["samplers"][0]["magFilter"] = 9984; }, "magFilter 9984"},
+      {"minFilter", [](Json& j) { j["samplers"][0]["minFilter"] = 7; }, "minFilter 7"},
       {"position accessor", [](Json& j) { primitive(j)["attributes"]["POSITION"] = 99; }, "accessor 99"},
       {"negative accessor", [](Json& j) { primitive(j)["attributes"]["NORMAL"] = -1; }, "accessor -1"},
       {"indices accessor", [](Json& j) { primitive(j)["indices"] = 99; }, "out of bounds"},

@@ -510,6 +510,38 @@ TEST(GltfMaterial, TexturesWithSamplersAndUvSets) {
   EXPECT_EQ(m.specularColourTexture.texture, m.baseColourTexture.texture);
 }
 
+TEST(GltfMaterial, EveryMinificationFilter) {
+  if (!test::hasOpenImageIO()) GTEST_SKIP() << "this build has no OpenImageIO";
+  const auto minify = [](const Json& sampler) {
+    GltfBuilder gltf = withMaterial({{"emissiveTexture", {{"index", 0}}}});
+    addPng(gltf, 1);
+    gltf.add("samplers", sampler);
+    gltf.add("textures", {{"source", 0}, {"sampler", 0}});
+    return load(gltf).textures[0].minify;
+  };
+  EXPECT_EQ(minify({{"minFilter", 9728}}), Minify::Nearest);
+  EXPECT_EQ(minify({{"minFilter", 9729}}), Minify::Linear);
+  EXPECT_EQ(minify({{"minFilter", 9984}}), Minify::NearestMipmapNearest);
+  EXPECT_EQ(minify({{"minFilter", 9985}}), Minify::LinearMipmapNearest);
+  EXPECT_EQ(minify({{"minFilter", 9986}}), Minify::NearestMipmapLinear);
+  EXPECT_EQ(minify({{"minFilter", 9987}}), Minify::LinearMipmapLinear);
+  EXPECT_EQ(minify({{"magFilter", 9728}}), Minify::LinearMipmapLinear);
+}
+
+TEST(GltfMaterial, UnlitKeepsItsColourOnly) {
+  const Material m = load(withMaterial({{"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}}},
+                                        {"alphaMode", "BLEND"},
+                                        {"extensions",
+                                         {{"KHR_materials_unlit", Json::object()},
+                                          {"KHR_materials_transmission", {{"transmissionFactor", 0.8}}}}}}))
+                         .materials[0];
+  EXPECT_TRUE(m.unlit);
+  EXPECT_EQ(m.baseColour, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_EQ(m.alphaMode, AlphaMode::Blend);
+  EXPECT_EQ(m.transmission, 0.f);
+  EXPECT_FALSE(load(withMaterial({{"name", "lit"}})).materials[0].unlit);
+}
+
 // Where the use reads its texture for a vertex's (u, v).
 glm::dvec2 inTexture(const TextureUse& use, double u, double v) {
   return glm::dmat3x2(use.textureFromUv) * glm::dvec3(u, v, 1);
@@ -707,10 +739,9 @@ TEST(GltfVolume, AllExtras) {
 
 TEST(GltfExtensions, UnknownOptionalOnesWarnOnceEach) {
   GltfBuilder gltf = test::triangle();
-  gltf.json["extensionsUsed"] = {"KHR_materials_unlit", "EXT_other", "KHR_materials_unlit",
-                                 "KHR_lights_punctual"};
+  gltf.json["extensionsUsed"] = {"EXT_strange", "EXT_other", "EXT_strange", "KHR_lights_punctual"};
   const std::string log = logged([&] { expectTriangle(load(gltf)); });
-  EXPECT_EQ(occurrences(log, "KHR_materials_unlit"), 1u) << log;
+  EXPECT_EQ(occurrences(log, "EXT_strange"), 1u) << log;
   EXPECT_EQ(occurrences(log, "EXT_other"), 1u) << log;
   EXPECT_EQ(occurrences(log, "KHR_lights_punctual"), 0u) << log;
 }
