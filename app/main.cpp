@@ -59,6 +59,11 @@ struct RenderText {
 
 void addRender(CLI::App& command, app::RenderOptions& options, RenderText& text) {
   command.add_option("scene", options.scene, "Scene to render: .gltf or .glb")->type_name("SCENE");
+  command
+      .add_option("--time", options.timeSeconds,
+                  "Pose the scene as its animations have it at this time, seconds; at rest otherwise")
+      ->type_name("SECONDS")
+      ->check(finiteVector());
   command.add_option("--volume", options.volumes, "OpenVDB smoke to add to the scene; may be given again")
       ->type_name("SMOKE.vdb")
       ->allow_extra_args(false);

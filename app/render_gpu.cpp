@@ -38,7 +38,7 @@ double secondsSince(Clock::time_point start) {
 scene::Scene loadScene(const RenderOptions& options) {
   if (options.scene.empty())
     fail(ExitCode::Usage, "no scene: name a .gltf or .glb file, see `sfumato render --help`");
-  scene::Scene scene = scene::readGltf(options.scene);
+  scene::Scene scene = scene::readGltf(options.scene, options.timeSeconds);
   for (const std::string& file : options.volumes) {
     scene::VolumePlacement volume;
     volume.file = file;

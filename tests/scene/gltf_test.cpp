@@ -754,18 +754,6 @@ TEST(GltfExtensions, SupportedOnesMayBeRequired) {
   EXPECT_EQ(log, "");
 }
 
-TEST(Gltf, WhatStandsStillIsSaidOnce) {
-  GltfBuilder gltf = threeNodes();
-  gltf.json["animations"] = Json::array({{{"channels", Json::array()}, {"samplers", Json::array()}}});
-  gltf.json["skins"] = Json::array({{{"joints", {0}}}});
-  gltf.json["nodes"][0]["skin"] = gltf.json["nodes"][1]["skin"] = 0;
-  gltf.json["meshes"][0]["primitives"][0]["targets"] = Json::array({{{"POSITION", 0}}});
-  const std::string log = logged([&] { EXPECT_EQ(load(gltf).instances.size(), 3u); });
-  EXPECT_EQ(occurrences(log, "animations"), 1u) << log;
-  EXPECT_EQ(occurrences(log, "skins"), 1u) << log;
-  EXPECT_EQ(occurrences(log, "morph"), 1u) << log;
-}
-
 // --- A file that we did not make ---
 
 TEST(Gltf, GlassTable) {
