@@ -29,6 +29,7 @@ struct RenderOptions {
   std::optional<glm::dvec3> lookFrom;
   std::optional<glm::dvec3> lookAt;
   std::optional<double> fovDegrees;
+  std::optional<double> timeSeconds;  // pose of the scene's animations; none: at rest
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;

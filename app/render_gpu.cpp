@@ -35,7 +35,7 @@ double secondsSince(Clock::time_point start) {
 }
 
 scene::Scene loadScene(const RenderOptions& options) {
-  scene::Scene scene = scene::readGltf(options.scene);
+  scene::Scene scene = scene::readGltf(options.scene, options.timeSeconds);
   for (const std::string& file : options.volumes) {
     scene::VolumePlacement volume;
     volume.file = file;

@@ -169,16 +169,12 @@ struct Device::Egl {
     EGLint configs = 0;
     if (!eglChooseConfig(display, configAttributes, &config, 1, &configs) || configs == 0)
       return eglProblem("eglChooseConfig");
-    const EGLint contextAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                        4,
-                                        EGL_CONTEXT_MINOR_VERSION,
-                                        3,
-                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                        EGL_CONTEXT_OPENGL_DEBUG,
-                                        debug ? EGL_TRUE : EGL_FALSE,
-                                        EGL_NONE};
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, contextAttributes);
+    std::vector<EGLint> contextAttributes = {
+        EGL_CONTEXT_MAJOR_VERSION,          4, EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+    if (debug) contextAttributes.insert(contextAttributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+    contextAttributes.push_back(EGL_NONE);
+    context = eglCreateContext(display, config, EGL_NO_CONTEXT, contextAttributes.data());
     if (context == EGL_NO_CONTEXT) return "no OpenGL 4.3 core context";
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
       return eglProblem("eglMakeCurrent");

@@ -53,6 +53,16 @@ GLenum targetOf(const TextureDescription& description) {
   return description.size.z > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D;
 }
 
+GLint minification(Minify minify) {
+  constexpr GLint values[] = {GL_NEAREST,
+                              GL_LINEAR,
+                              GL_NEAREST_MIPMAP_NEAREST,
+                              GL_LINEAR_MIPMAP_NEAREST,
+                              GL_NEAREST_MIPMAP_LINEAR,
+                              GL_LINEAR_MIPMAP_LINEAR};
+  return values[static_cast<int>(minify)];
+}
+
 void checkSize(const Device& device, const std::string& label, glm::ivec3 size) {
   const int limit = size.z > 1 ? device.limits().texture3dSize : device.limits().texture2dSize;
   const int largest = std::max({size.x, size.y, size.z});
@@ -74,7 +84,9 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
   bytes_ = static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z) *
            format.bytes * static_cast<size_t>(std::max(description.samples, 1));
   base::check(texels.empty() || texels.size() == bytes_, "a texture gets as many texels as it has");
-  const bool mipmaps = description.filter == Filter::LinearMipmap;
+  const GLint magnify = description.filter == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
+  const GLint minify = description.minify ? minification(*description.minify) : magnify;
+  const bool mipmaps = minify != GL_NEAREST && minify != GL_LINEAR;
   const int levels = mipmaps ? 1 + static_cast<int>(std::log2(std::max(size_.x, size_.y))) : 1;
 
   GLuint name = 0;
@@ -102,13 +114,11 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
     if (mipmaps) glGenerateMipmap(target_);
   }
   if (target_ != GL_TEXTURE_2D_MULTISAMPLE) {
-    const GLint magnify = description.filter == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
-    glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
-    glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, mipmaps ? GL_LINEAR_MIPMAP_LINEAR : magnify);
-    glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
-    glTexParameteri(target_, GL_TEXTURE_WRAP_T, wrapping(description.wrapT));
-    glTexParameteri(target_, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
-  }
+  glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
+  glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, minify);
+  glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
+  glTexParameteri(target_, GL_TEXTURE_WRAP_T, wrapping(description.wrapT));
+  glTexParameteri(target_, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
   if (mipmaps) bytes_ += bytes_ / 3;
   ledger_->add(label_, bytes_);
 }

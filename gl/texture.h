@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,13 +19,22 @@ void deleteFramebuffer(unsigned name);
 
 enum class Format { R32F, RGBA8, SRGB8A8, RGBA32UI, Depth32F };
 enum class BufferFormat { RGBA32F, RGB32UI };
-enum class Filter { Nearest, Linear, LinearMipmap };
+enum class Filter { Nearest, Linear };
+enum class Minify {  // within a level, then between levels
+  Nearest,
+  Linear,
+  NearestMipmapNearest,
+  LinearMipmapNearest,
+  NearestMipmapLinear,
+  LinearMipmapLinear
+};
 enum class Wrapping { Repeat, ClampToEdge, MirroredRepeat };
 
 struct TextureDescription {
   Format format = Format::RGBA8;
   glm::ivec3 size{1, 1, 1};  // texels; z > 1 makes it 3D
   Filter filter = Filter::Nearest;
+  std::optional<Minify> minify;  // as `filter`, without mipmaps, where none is given
   Wrapping wrapS = Wrapping::ClampToEdge;
   Wrapping wrapT = Wrapping::ClampToEdge;
   int samples = 0;  // a pixel; 0: not a multisample texture (1 is one, with its sample in the middle)

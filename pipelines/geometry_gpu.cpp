@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/geometry.h"
 
 namespace sfumato::pipelines {
 
@@ -34,7 +33,7 @@ struct UsedTexture {
   bool srgb;
 };
 
-std::array<UsedTexture, 7> usedTextures(const Material& m) {
+std::array<UsedTexture, MATERIAL_TEXTURES> usedTextures(const Material& m) {
   return {{{m.baseColourTexture, TEXTURE_BASE_COLOUR, true},
            {m.metallicRoughnessTexture, TEXTURE_METALLIC_ROUGHNESS, false},
            {m.normalTexture, TEXTURE_NORMAL, false},
@@ -53,7 +52,12 @@ shared::MaterialData materialData(const Material& material) {
   if (material.alphaMode == AlphaMode::Mask) data.flags.x |= MATERIAL_MASK;
   if (material.alphaMode == AlphaMode::Blend) data.flags.x |= MATERIAL_BLEND;
   if (material.normalTexture.texture >= 0) data.flags.x |= MATERIAL_NORMAL_MAP;
-  for (const UsedTexture& used : usedTextures(material)) data.flags.y |= used.use.uvSet << used.unit;
+  if (material.unlit) data.flags.x |= MATERIAL_UNLIT;
+  for (const UsedTexture& used : usedTextures(material)) {
+    data.flags.y |= used.use.uvSet << used.unit;
+    const glm::mat2x3 rows = glm::transpose(used.use.textureFromUv);
+    for (int row = 0; row < 2; ++row) data.uvTransforms[2 * used.unit + row] = glm::vec4(rows[row], 0);
+  }
   return data;
 }
 
@@ -61,7 +65,8 @@ gl::Texture uploadTexture(gl::Device& device, const Texture& texture, bool srgb)
   gl::TextureDescription description;
   description.format = srgb ? gl::Format::SRGB8A8 : gl::Format::RGBA8;
   description.size = {texture.width, texture.height, 1};
-  description.filter = texture.nearest ? gl::Filter::Nearest : gl::Filter::LinearMipmap;
+  description.filter = texture.nearest ? gl::Filter::Nearest : gl::Filter::Linear;
+  description.minify = static_cast<gl::Minify>(texture.minify);
   description.wrapS = static_cast<gl::Wrapping>(texture.wrapS);
   description.wrapT = static_cast<gl::Wrapping>(texture.wrapT);
   return gl::Texture(device, "textures", description, std::as_bytes(std::span(texture.rgba)));
@@ -121,8 +126,12 @@ void GeometryGpu::uploadMeshes(gl::Device& device, const Scene& scene) {
 }
 
 void GeometryGpu::uploadMaterials(gl::Device& device, const Scene& scene) {
-  const Texture white{
-      .name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}, .nearest = true};
+  const Texture white{.name = "white",
+                      .width = 1,
+                      .height = 1,
+                      .rgba = {255, 255, 255, 255},
+                      .nearest = true,
+                      .minify = scene::Minify::Nearest};
   textures_.push_back(uploadTexture(device, white, false));
   std::map<std::pair<int, bool>, int> uploaded;  // by texture and whether it is sRGB
   std::vector<shared::MaterialData> data;

@@ -8,6 +8,7 @@
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "scene/scene.h"
+#include "shaders/shared/geometry.h"
 
 namespace sfumato::pipelines {
 
@@ -39,7 +40,7 @@ class GeometryGpu {
 
   // Textures of a material by unit, index in textures_.
   struct MaterialTextures {
-    int unit[7] = {0, 0, 0, 0, 0, 0, 0};
+    int unit[MATERIAL_TEXTURES] = {};
     bool doubleSided = false;
   };
 

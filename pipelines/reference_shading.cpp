@@ -51,7 +51,8 @@ long wrapTexel(long index, long size, Wrap wrap) {
 
 glm::dvec4 sample(const Scene& scene, const TextureUse& use, const SurfacePoint& point, bool srgb) {
   if (use.texture < 0) return glm::dvec4(1.0);
-  return sampleTexture(scene.textures[static_cast<size_t>(use.texture)], point.uv[use.uvSet == 1], srgb);
+  const glm::dvec2 uv = glm::dmat3x2(use.textureFromUv) * glm::dvec3(point.uv[use.uvSet == 1], 1);
+  return sampleTexture(scene.textures[static_cast<size_t>(use.texture)], uv, srgb);
 }
 
 glm::dvec3 mappedNormal(const Scene& scene, const Material& material, const SurfacePoint& point) {
@@ -123,6 +124,11 @@ Reflector reflectorAt(const Scene& scene, const Material& material, const Surfac
 
   Reflector reflector;
   reflector.alpha = coverage.alpha;
+  if (material.unlit) {
+    reflector.emitted = coverage.alpha * coverage.baseColour;
+    reflector.specular90 = 0;
+    return reflector;
+  }
   reflector.diffuse = coverage.baseColour * (1 - metallic) * coverage.alpha * (1 - coverage.transmission);
   reflector.roughness = std::clamp(material.roughness * metallicRoughness.g, smallestRoughness, 1.0);
   reflector.specular0 = glm::mix(dielectric0, coverage.baseColour, metallic);

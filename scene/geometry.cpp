@@ -36,8 +36,8 @@ double cornerAngle(const dvec3& at, const dvec3& next, const dvec3& last) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-glm::dvec2 textureCoordinates(const Vertex& vertex, int uvSet) {
-  return uvSet == 0 ? vertex.uv0 : vertex.uv1;
+glm::dvec2 textureCoordinates(const Vertex& vertex, const TextureUse& use) {
+  return glm::dmat3x2(use.textureFromUv) * glm::dvec3(use.uvSet == 0 ? vertex.uv0 : vertex.uv1, 1);
 }
 
 // One triangle's dP/du, unit, and whether its texture is mirrored; valid false where that has no meaning.
@@ -47,10 +47,10 @@ struct TextureFrame {
   bool valid = false;
 };
 
-TextureFrame textureFrame(const Vertex& a, const Vertex& b, const Vertex& c, int uvSet) {
+TextureFrame textureFrame(const Vertex& a, const Vertex& b, const Vertex& c, const TextureUse& use) {
   const dvec3 edge1 = dvec3(b.position) - dvec3(a.position), edge2 = dvec3(c.position) - dvec3(a.position);
-  const glm::dvec2 uv = textureCoordinates(a, uvSet);
-  const glm::dvec2 uv1 = textureCoordinates(b, uvSet) - uv, uv2 = textureCoordinates(c, uvSet) - uv;
+  const glm::dvec2 uv = textureCoordinates(a, use);
+  const glm::dvec2 uv1 = textureCoordinates(b, use) - uv, uv2 = textureCoordinates(c, use) - uv;
   const double area = uv1.x * uv2.y - uv2.x * uv1.y;
   const dvec3 tangent = unitOr((edge1 * uv2.y - edge2 * uv1.y) * (area < 0 ? -1.0 : 1.0), dvec3(0.0));
   // v points down in glTF, so a texture that is not mirrored has a negative area on a front face.
@@ -116,14 +116,14 @@ void normaliseTangents(Mesh& mesh) {
     setTangent(vertex, dvec3(vertex.tangent), vertex.tangent.w < 0 ? -1.f : 1.f);
 }
 
-void computeTangents(Mesh& mesh, int uvSet) {
+void computeTangents(Mesh& mesh, const TextureUse& use) {
   std::vector<TangentSums> sums(mesh.vertices.size());
   const size_t triangles = mesh.indices.size() / 3;
   std::vector<TextureFrame> frames(triangles);
   for (size_t t = 0; t < triangles; ++t) {
     const uint32_t* indices = &mesh.indices[3 * t];
     const auto vertex = [&](size_t k) -> const Vertex& { return mesh.vertices[indices[k % 3]]; };
-    frames[t] = textureFrame(vertex(0), vertex(1), vertex(2), uvSet);
+    frames[t] = textureFrame(vertex(0), vertex(1), vertex(2), use);
     if (!frames[t].valid) continue;
     const int side = frames[t].mirrored;
     for (size_t k = 0; k < 3; ++k) {

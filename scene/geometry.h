@@ -24,11 +24,11 @@ void normaliseNormals(Mesh& mesh);
 // Makes tangents unit length and their handedness +-1; one that is zero becomes any across the normal.
 void normaliseTangents(Mesh& mesh);
 
-// Tangents from normals and the texture coordinates of `uvSet` (0 or 1): per vertex the mean over its
+// Tangents from normals and the coordinates that `use` reads its texture at: per vertex the mean over its
 // triangles of dP/du, weighted by the corner's angle, as MikkTSpace (Mikkelsen 2008) has it; the bitangent
 // cross(normal, tangent) * w points to where v falls, as glTF's normal maps want it. A vertex where mirrored
 // and unmirrored texture meet becomes two. Normals must be unit length.
-void computeTangents(Mesh& mesh, int uvSet);
+void computeTangents(Mesh& mesh, const TextureUse& use);
 
 // The mesh for a mirroring transform: indices reversed and handedness negated, so that counter-clockwise from
 // outside and cross(normal, tangent) * w hold after it.

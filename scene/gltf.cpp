@@ -4,7 +4,9 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <compare>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -18,6 +20,8 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "image/image_file.h"
+#include "scene/animation.h"
+#include "scene/deformation.h"
 #include "scene/geometry.h"
 #include "scene/gltf_json.h"
 #include "scene/printable.h"
@@ -32,14 +36,22 @@ using tinygltf::Value;
 namespace {
 
 // What a small hostile file can make us hold, by naming the same bytes again and again.
-constexpr size_t maxElements = size_t{1} << 26;   // vertices and indices of all primitives
+constexpr size_t maxElements = size_t{1} << 26;   // vertices, indices and keys
 constexpr size_t maxInstances = size_t{1} << 22;  // drawn primitives
 constexpr uint64_t maxExternalBytes = uint64_t{4} << 30;
 constexpr uint64_t maxTextureBytes = uint64_t{4} << 30;
 
+constexpr const char* textureTransform = "KHR_texture_transform";
+
 const std::set<std::string> supportedExtensions = {
-    "KHR_lights_punctual", "KHR_materials_transmission",      "KHR_materials_specular",
-    "KHR_materials_ior",   "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+    "KHR_lights_punctual",
+    "KHR_materials_transmission",
+    "KHR_materials_specular",
+    "KHR_materials_ior",
+    "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization",
+    "KHR_materials_unlit",
+    textureTransform,
 };
 
 // Says what is wrong with a file, in one line that starts with its path.
@@ -128,17 +140,18 @@ std::string text(const Faults& faults, const Value& object, const char* key, con
   return value.Get<std::string>();
 }
 
-glm::dvec3 triple(const Faults& faults, const Value& object, const char* key, const glm::dvec3& otherwise,
-                  const std::string& where) {
+template <int n>
+glm::vec<n, double> numbers(const Faults& faults, const Value& object, const char* key,
+                            const glm::vec<n, double>& otherwise, const std::string& where) {
   if (!object.Has(key)) return otherwise;
   const Value& value = object.Get(key);
-  glm::dvec3 result;
-  bool good = value.ArrayLen() == 3;
-  for (int i = 0; good && i < 3; ++i) {
+  glm::vec<n, double> result;
+  bool good = value.ArrayLen() == n;
+  for (int i = 0; good && i < n; ++i) {
     good = value.Get(i).IsNumber();
     result[i] = value.Get(i).GetNumberAsDouble();
   }
-  if (!good) faults.fail("{}: {} is not three numbers: give [r, g, b]", where, key);
+  if (!good) faults.fail("{}: {} is not an array of {} numbers: give that many", where, key, n);
   return result;
 }
 
@@ -312,7 +325,9 @@ class Accessors {
   // Counts elements that are about to be held.
   void spend(size_t elements, const std::string& where) {
     if (elements > maxElements - spent_)
-      faults_.fail("{}: brings the scene to more than {} vertices and indices: split it", where, maxElements);
+      faults_.fail(
+          "{}: brings the scene to more than {} vertices and indices (and keys of animations): split it",
+          where, maxElements);
     spent_ += elements;
   }
 
@@ -473,7 +488,8 @@ class Materials {
           faults_.notNegative(from.emissiveFactor[static_cast<size_t>(c)], where, "emissiveFactor");
       to.emissive[c] = static_cast<float>(faults_.notNegative(factor * strength, where, "the emission"));
     }
-    readTransmission(from, to, where);
+    to.unlit = find(from.extensions, "KHR_materials_unlit") != nullptr;
+    if (!to.unlit) readTransmission(from, to, where);
     readSpecular(from, to, where);
     return to;
   }
@@ -498,7 +514,7 @@ class Materials {
       to.specular =
           faults_.fraction(number(faults_, *extension, "specularFactor", 1, where), where, "specularFactor");
       to.specularTexture = use(*extension, "specularTexture", where);
-      const glm::dvec3 colour = triple(faults_, *extension, "specularColorFactor", glm::dvec3(1), where);
+      const glm::dvec3 colour = numbers(faults_, *extension, "specularColorFactor", glm::dvec3(1), where);
       for (int c = 0; c < 3; ++c)
         to.specularColour[c] =
             static_cast<float>(faults_.notNegative(colour[c], where, "specularColorFactor"));
@@ -516,24 +532,52 @@ class Materials {
   TextureUse use(const Value& extension, const char* key, const std::string& where) {
     if (!extension.Has(key)) return {};
     const Value& info = extension.Get(key);
-    return use(index(faults_, info, "index", -1, where), index(faults_, info, "texCoord", 0, where), where);
+    const Value none;
+    const Value& extensions = info.Has("extensions") ? info.Get("extensions") : none;
+    const Value& transform = extensions.Has(textureTransform) ? extensions.Get(textureTransform) : none;
+    return use(index(faults_, info, "index", -1, where), index(faults_, info, "texCoord", 0, where),
+               transform, where);
   }
 
   template <typename TextureInfo>
   TextureUse use(const TextureInfo& info, const std::string& where) {
-    return info.index == -1 ? TextureUse{} : use(info.index, info.texCoord, where);
+    if (info.index == -1) return {};
+    const Value* transform = find(info.extensions, textureTransform);
+    return use(info.index, info.texCoord, transform ? *transform : Value(), where);
   }
 
-  TextureUse use(int textureIndex, int uvSet, const std::string& where) {
-    if (uvSet != 0 && uvSet != 1)
-      faults_.fail("{}: uses TEXCOORD_{}: only 0 and 1 are supported", where, uvSet);
+  // `transform`: the texture info's KHR_texture_transform, an object or nothing.
+  TextureUse use(int textureIndex, int uvSet, const Value& transform, const std::string& where) {
+    TextureUse use;
+    use.uvSet = index(faults_, transform, "texCoord", uvSet, where);
+    if (use.uvSet != 0 && use.uvSet != 1)
+      faults_.fail("{}: uses TEXCOORD_{}: only 0 and 1 are supported", where, use.uvSet);
+    use.textureFromUv = textureFromUv(transform, where);
+    use.texture = textureOf(textureIndex, where);
+    return use;
+  }
+
+  // Scaled, then turned counter-clockwise on the picture (where v falls), then moved.
+  glm::mat3x2 textureFromUv(const Value& transform, const std::string& where) const {
+    const glm::dvec2 offset = numbers(faults_, transform, "offset", glm::dvec2(0), where);
+    const glm::dvec2 scale = numbers(faults_, transform, "scale", glm::dvec2(1), where);
+    const double angle =
+        faults_.finite(number(faults_, transform, "rotation", 0, where), where, "texture rotation");
+    for (int i = 0; i < 2; ++i) {
+      faults_.finite(offset[i], where, "texture offset");
+      faults_.finite(scale[i], where, "texture scale");
+    }
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    return glm::dmat3x2(scale.x * glm::dvec2(cosine, -sine), scale.y * glm::dvec2(sine, cosine), offset);
+  }
+
+  // The scene's texture for one of the file, decoded when first asked for.
+  int textureOf(int textureIndex, const std::string& where) {
     const auto known = textures_.find(textureIndex);
-    if (known != textures_.end()) return {known->second, uvSet};
+    if (known != textures_.end()) return known->second;
     const tinygltf::Texture& from = faults_.at(model_.textures, textureIndex, where, "texture");
     scene_.textures.push_back(read(from, label("texture", static_cast<size_t>(textureIndex), from.name)));
-    const int added = static_cast<int>(scene_.textures.size()) - 1;
-    textures_[textureIndex] = added;
-    return {added, uvSet};
+    return textures_[textureIndex] = static_cast<int>(scene_.textures.size()) - 1;
   }
 
   Texture read(const tinygltf::Texture& from, const std::string& where) {
@@ -556,9 +600,38 @@ class Materials {
       const tinygltf::Sampler& sampler = faults_.at(model_.samplers, from.sampler, where, "sampler");
       to.wrapS = wrap(sampler.wrapS, where);
       to.wrapT = wrap(sampler.wrapT, where);
-      to.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+      to.nearest = isNearest(sampler.magFilter, where);
+      to.minify = minify(sampler.minFilter, where);
     }
     return to;
+  }
+
+  static constexpr int noFilter = -1;  // tinygltf's: the choice is ours
+
+  bool isNearest(int filter, const std::string& where) const {
+    if (filter == TINYGLTF_TEXTURE_FILTER_NEAREST) return true;
+    if (filter == TINYGLTF_TEXTURE_FILTER_LINEAR || filter == noFilter) return false;
+    faults_.fail("{}: magFilter {} is unknown: export it again", where, filter);
+  }
+
+  Minify minify(int filter, const std::string& where) const {
+    switch (filter) {
+      case TINYGLTF_TEXTURE_FILTER_NEAREST:
+        return Minify::Nearest;
+      case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        return Minify::Linear;
+      case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        return Minify::NearestMipmapNearest;
+      case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        return Minify::LinearMipmapNearest;
+      case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+        return Minify::NearestMipmapLinear;
+      case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
+      case noFilter:
+        return Minify::LinearMipmapLinear;
+      default:
+        faults_.fail("{}: minFilter {} is unknown: export it again", where, filter);
+    }
   }
 
   Wrap wrap(int mode, const std::string& where) const {
@@ -580,182 +653,6 @@ class Materials {
   Scene& scene_;
   std::map<int, int> textures_;  // index in the file -> index in the scene
   uint64_t textureBytes_ = 0;
-};
-
-// --- Meshes ---
-
-class Meshes {
- public:
-  Meshes(const Model& model, Faults& faults, Accessors& accessors, Materials& materials, Scene& scene)
-      : model_(model), faults_(faults), accessors_(accessors), materials_(materials), scene_(scene) {}
-
-  // Adds an instance of each primitive of a mesh of the file.
-  void place(int gltfMesh, const glm::dmat4& worldFromObject, const std::string& where) {
-    faults_.at(model_.meshes, gltfMesh, where, "mesh");
-    for (const int mesh : primitives(gltfMesh, Side::AsStored)) {
-      if (scene_.instances.size() >= maxInstances)
-        faults_.fail("{}: draws more than {} primitives: merge them", where, maxInstances);
-      scene_.instances.push_back({mesh, worldFromObject});
-    }
-    const size_t count = primitives(gltfMesh, Side::AsStored).size();
-    const auto placed = std::span(scene_.instances).last(count);
-    if (isSingular(worldFromObject)) {
-      for (Instance& instance : placed) flatten(instance, where);
-    } else if (glm::determinant(glm::dmat3(worldFromObject)) < 0) {
-      const std::vector<int>& others = primitives(gltfMesh, Side::Mirrored);
-      for (size_t i = 0; i < count; ++i) placed[i].mesh = others[i];
-    }
-  }
-
- private:
-  enum class Side { AsStored, Mirrored };
-
-  // The scene's meshes for the primitives of a mesh, made when first asked for.
-  const std::vector<int>& primitives(int gltfMesh, Side side) {
-    const auto known = meshes_.find({gltfMesh, side});
-    if (known != meshes_.end()) return known->second;
-    std::vector<int> made;
-    if (side == Side::AsStored) {
-      const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(gltfMesh)];
-      const std::string where = label("mesh", static_cast<size_t>(gltfMesh), mesh.name);
-      for (size_t i = 0; i < mesh.primitives.size(); ++i)
-        if (const auto primitive = read(mesh.primitives[i], fmt::format("{} primitive {}", where, i)))
-          made.push_back(add(*primitive, mesh.name));
-    } else {
-      for (const int mesh : std::vector<int>(primitives(gltfMesh, Side::AsStored))) {
-        const Mesh& original = scene_.meshes[static_cast<size_t>(mesh)];
-        accessors_.spend(original.vertices.size() + original.indices.size(), original.name);
-        made.push_back(add(mirrored(original), original.name));
-      }
-    }
-    return meshes_[{gltfMesh, side}] = std::move(made);
-  }
-
-  int add(Mesh mesh, const std::string& name) {
-    mesh.name = printable(name);
-    scene_.meshes.push_back(std::move(mesh));
-    return static_cast<int>(scene_.meshes.size()) - 1;
-  }
-
-  static bool isSingular(const glm::dmat4& matrix) {
-    const glm::dmat3 linear(matrix);
-    const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    return std::abs(glm::determinant(linear)) <= 1e-12 * lengths;
-  }
-
-  // Puts a transform that no inverse exists for into a mesh of its own.
-  void flatten(Instance& instance, const std::string& where) {
-    const Mesh& original = scene_.meshes[static_cast<size_t>(instance.mesh)];
-    accessors_.spend(original.vertices.size() + original.indices.size(), where);
-    instance.mesh = add(transformed(original, instance.worldFromObject), original.name);
-    instance.worldFromObject = glm::dmat4(1.0);
-  }
-
-  std::optional<Mesh> read(const tinygltf::Primitive& primitive, const std::string& where) {
-    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-      faults_.fail("{}: mode {} is unknown: export it again", where, primitive.mode);
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-      faults_.warnOnce("points and lines are not drawn");
-      return std::nullopt;
-    }
-    if (!primitive.targets.empty())
-      faults_.warnOnce("morph targets are not supported: meshes keep their shape");
-
-    Mesh mesh;
-    mesh.material = materials_.indexOf(primitive.material, where);
-    readPositions(primitive, mesh, where);
-    readTriangles(primitive, mesh, where);
-    if (mesh.indices.empty()) return std::nullopt;
-    const auto assign = [&](const char* name, int components, auto set) {
-      return readAttribute(primitive, name, components, mesh, set, where);
-    };
-    assign("TEXCOORD_0", 2, [](Vertex& v, const float* f) { v.uv0 = {f[0], f[1]}; });
-    assign("TEXCOORD_1", 2, [](Vertex& v, const float* f) { v.uv1 = {f[0], f[1]}; });
-    readColours(primitive, mesh, where);
-
-    const bool hasNormals = assign("NORMAL", 3, [](Vertex& v, const float* f) {
-      v.normal = {f[0], f[1], f[2]};
-    });
-    if (hasNormals) {
-      normaliseNormals(mesh);
-    } else {
-      accessors_.spend(mesh.indices.size(), where);
-      makeFlat(mesh);
-    }
-    // Tangents mean nothing without the normals that they were made for.
-    const bool hasTangents = hasNormals && assign("TANGENT", 4, [](Vertex& v, const float* f) {
-                               v.tangent = {f[0], f[1], f[2], f[3]};
-                             });
-    const TextureUse& normalTexture = scene_.materials[static_cast<size_t>(mesh.material)].normalTexture;
-    if (hasTangents)
-      normaliseTangents(mesh);
-    else if (normalTexture.texture != -1)
-      computeTangents(mesh, normalTexture.uvSet);
-    return mesh;
-  }
-
-  void readPositions(const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& where) {
-    const auto found = primitive.attributes.find("POSITION");
-    if (found == primitive.attributes.end()) faults_.fail("{}: has no POSITION: export it again", where);
-    const std::vector<float> positions = accessors_.floats(found->second, 3, where + " POSITION");
-    mesh.vertices.resize(positions.size() / 3);
-    for (size_t i = 0; i < mesh.vertices.size(); ++i)
-      mesh.vertices[i].position = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
-  }
-
-  void readTriangles(const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& where) {
-    std::vector<uint32_t> indices;
-    if (primitive.indices == -1) {
-      accessors_.spend(mesh.vertices.size(), where);
-      indices.resize(mesh.vertices.size());
-      for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<uint32_t>(i);
-    } else {
-      indices = accessors_.indices(primitive.indices, mesh.vertices.size(), where + " indices");
-    }
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP)
-      mesh.indices = trianglesOfStrip(indices);
-    else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN)
-      mesh.indices = trianglesOfFan(indices);
-    else if (indices.size() % 3 == 0)
-      mesh.indices = std::move(indices);
-    else
-      faults_.fail("{}: {} indices are not whole triangles: export it again", where, indices.size());
-  }
-
-  // Calls set(vertex, components) for each vertex; false when the primitive has no such attribute.
-  template <typename Set>
-  bool readAttribute(const tinygltf::Primitive& primitive, const char* name, int components, Mesh& mesh,
-                     Set set, const std::string& where) {
-    const auto found = primitive.attributes.find(name);
-    if (found == primitive.attributes.end()) return false;
-    const auto width = static_cast<size_t>(components);
-    const std::vector<float> values =
-        accessors_.floats(found->second, components, fmt::format("{} {}", where, name));
-    if (values.size() != mesh.vertices.size() * width)
-      faults_.fail("{} {}: has {} elements for {} vertices: export it again", where, name,
-                   values.size() / width, mesh.vertices.size());
-    for (size_t i = 0; i < mesh.vertices.size(); ++i) set(mesh.vertices[i], &values[i * width]);
-    return true;
-  }
-
-  void readColours(const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& where) {
-    const auto found = primitive.attributes.find("COLOR_0");
-    if (found == primitive.attributes.end()) return;
-    const bool hasAlpha = accessors_.components(found->second, where) == 4;
-    readAttribute(
-        primitive, "COLOR_0", hasAlpha ? 4 : 3, mesh,
-        [&](Vertex& v, const float* f) {
-          v.colour = {f[0], f[1], f[2], hasAlpha ? f[3] : 1.f};
-        },
-        where);
-  }
-
-  const Model& model_;
-  Faults& faults_;
-  Accessors& accessors_;
-  Materials& materials_;
-  Scene& scene_;
-  std::map<std::pair<int, Side>, std::vector<int>> meshes_;
 };
 
 // --- Nodes ---
@@ -802,6 +699,14 @@ glm::dmat4 localTransform(const Faults& faults, const tinygltf::Node& node, cons
   for (int axis = 0; axis < 3; ++axis) local[axis] *= scale[axis];
   local[3] = glm::dvec4(vector(node.translation, 0), 1);
   return local;
+}
+
+// The GPU will hold it in single precision.
+bool fitsFloat(const glm::dmat4& matrix) {
+  for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 4; ++row)
+      if (!(std::abs(matrix[column][row]) <= std::numeric_limits<float>::max())) return false;
+  return true;
 }
 
 // Which nodes are drawn, parents before children, and where they stand.
@@ -893,6 +798,434 @@ class NodeGraph {
   const Model& model_;
   const Faults& faults_;
   std::vector<int> parents_;
+};
+
+// --- Animations ---
+
+size_t morphTargets(const tinygltf::Mesh& mesh) {
+  return mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
+}
+
+// Gives the nodes of a model the transforms and weights that its animations have at a time.
+class Animations {
+ public:
+  Animations(Model& model, Faults& faults, Accessors& accessors)
+      : model_(model), faults_(faults), accessors_(accessors) {}
+
+  // Of two that animate the same property, the later one counts.
+  void pose(double seconds) {
+    for (size_t i = 0; i < model_.animations.size(); ++i) {
+      const tinygltf::Animation& animation = model_.animations[i];
+      const std::string where = label("animation", i, animation.name);
+      for (size_t c = 0; c < animation.channels.size(); ++c)
+        pose(animation, animation.channels[c], seconds, fmt::format("{} channel {}", where, c));
+    }
+  }
+
+ private:
+  void pose(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel, double seconds,
+            const std::string& where) {
+    if (channel.target_node == -1) return;
+    faults_.at(model_.nodes, channel.target_node, where, "node");
+    const auto target = static_cast<size_t>(channel.target_node);
+    tinygltf::Node& node = model_.nodes[target];
+    const bool weights = channel.target_path == "weights";
+    std::vector<double>* property = weights                                ? &node.weights
+                                    : channel.target_path == "translation" ? &node.translation
+                                    : channel.target_path == "rotation"    ? &node.rotation
+                                    : channel.target_path == "scale"       ? &node.scale
+                                                                           : nullptr;
+    if (property == nullptr) {
+      faults_.warnOnce(
+          fmt::format("animations of \"{}\" are not supported: ignored", printable(channel.target_path)));
+      return;
+    }
+    if (!weights && !node.matrix.empty())
+      faults_.fail("{}: {} has a matrix, which cannot be animated: export it again", where,
+                   nodeLabel(model_, target));
+
+    const auto& sampler = faults_.at(animation.samplers, channel.sampler, where, "sampler");
+    Keyframes keyframes;
+    keyframes.rotation = property == &node.rotation;
+    keyframes.width = weights ? weightsOf(node, where) : keyframes.rotation ? 4 : 3;
+    readKeys(sampler, weights ? 1 : static_cast<int>(keyframes.width), keyframes, where);
+    *property = valueAt(keyframes, seconds);
+  }
+
+  // How many morph targets a node's mesh has.
+  size_t weightsOf(const tinygltf::Node& node, const std::string& where) const {
+    const size_t count = morphTargets(faults_.at(model_.meshes, node.mesh, where, "mesh"));
+    if (count == 0)
+      faults_.fail("{}: mesh {} has no morph targets to weigh: export it again", where, node.mesh);
+    return count;
+  }
+
+  void readKeys(const tinygltf::AnimationSampler& sampler, int components, Keyframes& keyframes,
+                const std::string& where) {
+    keyframes.interpolation = interpolation(sampler.interpolation, where);
+    keyframes.times = accessors_.floats(sampler.input, 1, where + " input");
+    keyframes.values = accessors_.floats(sampler.output, components, where + " output");
+    const auto descent = std::adjacent_find(keyframes.times.begin(), keyframes.times.end(),
+                                            [](float a, float b) { return !(a < b); });
+    if (descent != keyframes.times.end())
+      faults_.fail("{} input: key {} is not later than the one before it: export it again", where,
+                   descent - keyframes.times.begin() + 1);
+    const size_t perKey = keyframes.interpolation == Interpolation::CubicSpline ? 3 : 1;
+    const size_t expected = keyframes.times.size() * keyframes.width * perKey;
+    if (keyframes.values.size() != expected)
+      faults_.fail("{} output: has {} numbers, but {} keys need {}: export it again", where,
+                   keyframes.values.size(), keyframes.times.size(), expected);
+  }
+
+  Interpolation interpolation(const std::string& name, const std::string& where) const {
+    if (name == "STEP") return Interpolation::Step;
+    if (name == "LINEAR") return Interpolation::Linear;
+    if (name == "CUBICSPLINE") return Interpolation::CubicSpline;
+    faults_.fail("{}: interpolation \"{}\" is unknown: use STEP, LINEAR or CUBICSPLINE", where,
+                 printable(name));
+  }
+
+  Model& model_;
+  Faults& faults_;
+  Accessors& accessors_;
+};
+
+// --- Skins ---
+
+class Skins {
+ public:
+  Skins(const Model& model, const Faults& faults, Accessors& accessors,
+        std::span<const NodeGraph::Placed> placed)
+      : model_(model), faults_(faults), accessors_(accessors), worldFromNode_(model.nodes.size()) {
+    for (const NodeGraph::Placed& node : placed) worldFromNode_[node.node] = &node.worldFromNode;
+  }
+
+  // For each joint of a skin: what takes a vertex at rest to the world. Read when first asked for.
+  std::span<const glm::dmat4> worldFromRest(int skin, const std::string& where) {
+    const auto known = matrices_.find(skin);
+    if (known != matrices_.end()) return known->second;
+    const tinygltf::Skin& from = faults_.at(model_.skins, skin, where, "skin");
+    return matrices_[skin] = read(from, label("skin", static_cast<size_t>(skin), from.name));
+  }
+
+ private:
+  std::vector<glm::dmat4> read(const tinygltf::Skin& skin, const std::string& where) {
+    if (skin.joints.empty()) faults_.fail("{}: has no joints: export it again", where);
+    std::vector<glm::dmat4> matrices;
+    for (const int joint : skin.joints) {
+      faults_.at(model_.nodes, joint, where, "node");
+      const auto node = static_cast<size_t>(joint);
+      if (worldFromNode_[node] == nullptr)
+        faults_.fail("{}: its joint, {}, is not in the scene: export it again", where,
+                     nodeLabel(model_, node));
+      matrices.push_back(*worldFromNode_[node]);
+    }
+    if (skin.inverseBindMatrices != -1) multiplyInverseBinds(skin.inverseBindMatrices, matrices, where);
+    for (const glm::dmat4& matrix : matrices)
+      if (!fitsFloat(matrix)) faults_.fail("{}: a joint's transform is not finite: export it again", where);
+    return matrices;
+  }
+
+  void multiplyInverseBinds(int accessor, std::vector<glm::dmat4>& matrices, const std::string& where) {
+    constexpr float rounding = 1e-5f;
+    const std::vector<float> values = accessors_.floats(accessor, 16, where + " inverseBindMatrices");
+    if (values.size() < 16 * matrices.size())
+      faults_.fail("{}: has {} inverse bind matrices for {} joints: export it again", where,
+                   values.size() / 16, matrices.size());
+    for (size_t joint = 0; joint < matrices.size(); ++joint) {
+      const float* v = &values[16 * joint];
+      if (std::abs(v[3]) > rounding || std::abs(v[7]) > rounding || std::abs(v[11]) > rounding ||
+          std::abs(v[15] - 1) > rounding)
+        faults_.fail("{}: inverse bind matrix {} is not affine: export it again", where, joint);
+      glm::dmat4 jointFromRest(1.0);
+      for (int column = 0; column < 4; ++column)
+        jointFromRest[column] = {v[4 * column], v[4 * column + 1], v[4 * column + 2], column == 3 ? 1 : 0};
+      matrices[joint] = matrices[joint] * jointFromRest;
+    }
+  }
+
+  const Model& model_;
+  const Faults& faults_;
+  Accessors& accessors_;
+  std::vector<const glm::dmat4*> worldFromNode_;  // null where a node is not in the scene
+  std::map<int, std::vector<glm::dmat4>> matrices_;
+};
+
+// --- Meshes ---
+
+class Meshes {
+ public:
+  Meshes(const Model& model, Faults& faults, Accessors& accessors, Materials& materials, Skins& skins,
+         Scene& scene)
+      : model_(model),
+        faults_(faults),
+        accessors_(accessors),
+        materials_(materials),
+        skins_(skins),
+        scene_(scene) {}
+
+  // Adds an instance of each primitive of a node's mesh.
+  void place(const tinygltf::Node& node, const glm::dmat4& worldFromNode, const std::string& where) {
+    const Shape shape{node.mesh, node.skin, weightsOf(node, where)};
+    // A skin takes vertices to the world whatever node they hang from.
+    const glm::dmat4 worldFromObject = node.skin == -1 ? worldFromNode : glm::dmat4(1.0);
+    for (const int mesh : primitives(shape, Side::AsStored)) {
+      if (scene_.instances.size() >= maxInstances)
+        faults_.fail("{}: draws more than {} primitives: merge them", where, maxInstances);
+      scene_.instances.push_back({mesh, worldFromObject});
+    }
+    const size_t count = primitives(shape, Side::AsStored).size();
+    const auto placed = std::span(scene_.instances).last(count);
+    if (isSingular(worldFromObject)) {
+      for (Instance& instance : placed) flatten(instance, where);
+    } else if (glm::determinant(glm::dmat3(worldFromObject)) < 0) {
+      const std::vector<int>& others = primitives(shape, Side::Mirrored);
+      for (size_t i = 0; i < count; ++i) placed[i].mesh = others[i];
+    }
+  }
+
+ private:
+  enum class Side { AsStored, Mirrored };
+
+  // A mesh of the file, bent.
+  struct Shape {
+    int mesh = -1;
+    int skin = -1;
+    std::vector<double> weights;  // of the morph targets; empty: all 0
+    auto operator<=>(const Shape&) const = default;
+  };
+
+  // The node's weights, else its mesh's.
+  std::vector<double> weightsOf(const tinygltf::Node& node, const std::string& where) const {
+    const tinygltf::Mesh& mesh = faults_.at(model_.meshes, node.mesh, where, "mesh");
+    const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+    if (!weights.empty() && weights.size() != morphTargets(mesh))
+      faults_.fail("{}: has {} weights for {} morph targets: export it again", where, weights.size(),
+                   morphTargets(mesh));
+    bool any = false;
+    for (const double weight : weights) any = faults_.finite(weight, where, "a morph weight") != 0 || any;
+    return any ? weights : std::vector<double>();
+  }
+
+  // The scene's meshes for the primitives of a mesh, made when first asked for.
+  const std::vector<int>& primitives(const Shape& shape, Side side) {
+    const auto known = meshes_.find({shape, side});
+    if (known != meshes_.end()) return known->second;
+    std::vector<int> made;
+    if (side == Side::AsStored) {
+      const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(shape.mesh)];
+      const std::string where = label("mesh", static_cast<size_t>(shape.mesh), mesh.name);
+      for (size_t i = 0; i < mesh.primitives.size(); ++i)
+        if (const auto primitive = read(mesh.primitives[i], shape, fmt::format("{} primitive {}", where, i)))
+          made.push_back(add(*primitive, mesh.name));
+    } else {
+      for (const int mesh : std::vector<int>(primitives(shape, Side::AsStored))) {
+        const Mesh& original = scene_.meshes[static_cast<size_t>(mesh)];
+        accessors_.spend(original.vertices.size() + original.indices.size(), original.name);
+        made.push_back(add(mirrored(original), original.name));
+      }
+    }
+    return meshes_[{shape, side}] = std::move(made);
+  }
+
+  int add(Mesh mesh, const std::string& name) {
+    mesh.name = printable(name);
+    scene_.meshes.push_back(std::move(mesh));
+    return static_cast<int>(scene_.meshes.size()) - 1;
+  }
+
+  static bool isSingular(const glm::dmat4& matrix) {
+    const glm::dmat3 linear(matrix);
+    const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+    return std::abs(glm::determinant(linear)) <= 1e-12 * lengths;
+  }
+
+  // Puts a transform that no inverse exists for into a mesh of its own.
+  void flatten(Instance& instance, const std::string& where) {
+    const Mesh& original = scene_.meshes[static_cast<size_t>(instance.mesh)];
+    accessors_.spend(original.vertices.size() + original.indices.size(), where);
+    instance.mesh = add(transformed(original, instance.worldFromObject), original.name);
+    instance.worldFromObject = glm::dmat4(1.0);
+  }
+
+  std::optional<Mesh> read(const tinygltf::Primitive& primitive, const Shape& shape,
+                           const std::string& where) {
+    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+      faults_.fail("{}: mode {} is unknown: export it again", where, primitive.mode);
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+      faults_.warnOnce("points and lines are not drawn");
+      return std::nullopt;
+    }
+
+    Mesh mesh;
+    mesh.material = materials_.indexOf(primitive.material, where);
+    readPositions(primitive, mesh, where);
+    readTriangles(primitive, mesh, where);
+    if (mesh.indices.empty()) return std::nullopt;
+    const auto assign = [&](const char* name, int components, auto set) {
+      return readAttribute(
+          primitive.attributes, name, components, mesh.vertices.size(),
+          [&](size_t vertex, const float* f) { set(mesh.vertices[vertex], f); }, where);
+    };
+    assign("TEXCOORD_0", 2, [](Vertex& v, const float* f) { v.uv0 = {f[0], f[1]}; });
+    assign("TEXCOORD_1", 2, [](Vertex& v, const float* f) { v.uv1 = {f[0], f[1]}; });
+    readColours(primitive, mesh, where);
+    const bool hasNormals = assign("NORMAL", 3, [](Vertex& v, const float* f) {
+      v.normal = {f[0], f[1], f[2]};
+    });
+    // Tangents mean nothing without the normals that they were made for.
+    const bool hasTangents = hasNormals && assign("TANGENT", 4, [](Vertex& v, const float* f) {
+                               v.tangent = {f[0], f[1], f[2], f[3]};
+                             });
+    deform(primitive, shape, mesh, where);
+    // What the file leaves out comes from the shape that is drawn.
+    if (hasNormals) {
+      normaliseNormals(mesh);
+    } else {
+      accessors_.spend(mesh.indices.size(), where);
+      makeFlat(mesh);
+    }
+    const TextureUse& normalTexture = scene_.materials[static_cast<size_t>(mesh.material)].normalTexture;
+    if (hasTangents)
+      normaliseTangents(mesh);
+    else if (normalTexture.texture != -1)
+      computeTangents(mesh, normalTexture);
+    return mesh;
+  }
+
+  void readPositions(const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& where) {
+    const auto found = primitive.attributes.find("POSITION");
+    if (found == primitive.attributes.end()) faults_.fail("{}: has no POSITION: export it again", where);
+    const std::vector<float> positions = accessors_.floats(found->second, 3, where + " POSITION");
+    mesh.vertices.resize(positions.size() / 3);
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+      mesh.vertices[i].position = {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
+  }
+
+  void readTriangles(const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& where) {
+    std::vector<uint32_t> indices;
+    if (primitive.indices == -1) {
+      accessors_.spend(mesh.vertices.size(), where);
+      indices.resize(mesh.vertices.size());
+      for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<uint32_t>(i);
+    } else {
+      indices = accessors_.indices(primitive.indices, mesh.vertices.size(), where + " indices");
+    }
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+      mesh.indices = trianglesOfStrip(indices);
+    else if (primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN)
+      mesh.indices = trianglesOfFan(indices);
+    else if (indices.size() % 3 == 0)
+      mesh.indices = std::move(indices);
+    else
+      faults_.fail("{}: {} indices are not whole triangles: export it again", where, indices.size());
+  }
+
+  // Calls set(vertex, components) for each vertex; false when there is no such attribute.
+  template <typename Set>
+  bool readAttribute(const std::map<std::string, int>& attributes, const char* name, int components,
+                     size_t vertices, Set set, const std::string& where) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end()) return false;
+    const auto width = static_cast<size_t>(components);
+    const std::vector<float> values =
+        accessors_.floats(found->second, components, fmt::format("{} {}", where, name));
+    if (values.size() != vertices * width)
+      faults_.fail("{} {}: has {} elements for {} vertices: export it again", where, name,
+                   values.size() / width, vertices);
+    for (size_t i = 0; i < vertices; ++i) set(i, &values[i * width]);
+    return true;
+  }
+
+  void readColours(const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& where) {
+    const auto found = primitive.attributes.find("COLOR_0");
+    if (found == primitive.attributes.end()) return;
+    const bool hasAlpha = accessors_.components(found->second, where) == 4;
+    readAttribute(
+        primitive.attributes, "COLOR_0", hasAlpha ? 4 : 3, mesh.vertices.size(),
+        [&](size_t vertex, const float* f) {
+          mesh.vertices[vertex].colour = {f[0], f[1], f[2], hasAlpha ? f[3] : 1.f};
+        },
+        where);
+  }
+
+  void deform(const tinygltf::Primitive& primitive, const Shape& shape, Mesh& mesh,
+              const std::string& where) {
+    if (!shape.weights.empty()) morph(mesh, readMorph(primitive, shape.weights, mesh.vertices.size(), where));
+    if (shape.skin != -1) {
+      const auto worldFromRest = skins_.worldFromRest(shape.skin, where);
+      skin(mesh, readInfluences(primitive, mesh.vertices.size(), worldFromRest.size(), where), worldFromRest);
+    }
+    for (size_t i = 0; i < mesh.vertices.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(mesh.vertices[i].position[axis]))
+          faults_.fail("{}: vertex {} is moved to where it is not finite: export it again", where, i);
+  }
+
+  std::vector<MorphOffset> readMorph(const tinygltf::Primitive& primitive, const std::vector<double>& weights,
+                                     size_t vertices, const std::string& where) {
+    if (primitive.targets.size() != weights.size())
+      faults_.fail("{}: has {} morph targets for {} weights: export it again", where,
+                   primitive.targets.size(), weights.size());
+    std::vector<MorphOffset> offsets(vertices);
+    for (size_t target = 0; target < weights.size(); ++target) {
+      if (weights[target] == 0) continue;
+      const auto add = [&](const char* name, glm::dvec3 MorphOffset::*part) {
+        readAttribute(
+            primitive.targets[target], name, 3, vertices,
+            [&](size_t vertex, const float* f) {
+              offsets[vertex].*part += weights[target] * glm::dvec3(f[0], f[1], f[2]);
+            },
+            fmt::format("{} morph target {}", where, target));
+      };
+      add("POSITION", &MorphOffset::position);
+      add("NORMAL", &MorphOffset::normal);
+      add("TANGENT", &MorphOffset::tangent);
+    }
+    return offsets;
+  }
+
+  std::vector<Influences> readInfluences(const tinygltf::Primitive& primitive, size_t vertices, size_t joints,
+                                         const std::string& where) {
+    std::vector<std::array<float, 8>> numbers(vertices, std::array<float, 8>{}), weights = numbers;
+    const auto read = [&](const char* name, size_t first, auto& into) {
+      return readAttribute(
+          primitive.attributes, name, 4, vertices,
+          [&](size_t vertex, const float* f) { std::copy_n(f, 4, into[vertex].begin() + first); }, where);
+    };
+    if (!read("JOINTS_0", 0, numbers) || !read("WEIGHTS_0", 0, weights))
+      faults_.fail("{}: has a skin, but no JOINTS_0 and WEIGHTS_0: export it again", where);
+    if (read("JOINTS_1", 4, numbers) != read("WEIGHTS_1", 4, weights))
+      faults_.fail("{}: has only one of JOINTS_1 and WEIGHTS_1: export it again", where);
+
+    std::vector<Influences> influences(vertices);
+    for (size_t vertex = 0; vertex < vertices; ++vertex) {
+      double sum = 0;
+      for (size_t i = 0; i < numbers[vertex].size(); ++i) {
+        const float joint = numbers[vertex][i], weight = weights[vertex][i];
+        if (weight < 0)
+          faults_.fail("{}: a weight of vertex {} is {}: give 0 or more", where, vertex, weight);
+        if (weight == 0) continue;
+        if (!(joint >= 0 && joint < static_cast<float>(joints)))
+          faults_.fail("{}: vertex {} follows joint {}, but the skin has {}: export it again", where, vertex,
+                       joint, joints);
+        influences[vertex].joints[i] = static_cast<uint32_t>(joint);
+        sum += weight;
+      }
+      if (!(sum > 0)) faults_.fail("{}: vertex {} follows no joint: give it weights", where, vertex);
+      for (size_t i = 0; i < numbers[vertex].size(); ++i)
+        influences[vertex].weights[i] = static_cast<float>(weights[vertex][i] / sum);
+    }
+    return influences;
+  }
+
+  const Model& model_;
+  Faults& faults_;
+  Accessors& accessors_;
+  Materials& materials_;
+  Skins& skins_;
+  Scene& scene_;
+  std::map<std::pair<Shape, Side>, std::vector<int>> meshes_;
 };
 
 // --- What stands at a node ---
@@ -1002,7 +1335,7 @@ VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm:
   volume.gridName = text(faults, extras, "volume_grid", where);
   volume.scale =
       faults.notNegative(number(faults, extras, "volume_scale", volume.scale, where), where, "volume_scale");
-  volume.albedo = triple(faults, extras, "volume_albedo", volume.albedo, where);
+  volume.albedo = numbers(faults, extras, "volume_albedo", volume.albedo, where);
   for (int c = 0; c < 3; ++c) faults.inRange(volume.albedo[c], 0, 1, where, "volume_albedo");
   volume.g = number(faults, extras, "volume_g", volume.g, where);
   if (!(std::abs(volume.g) < 1)) faults.fail("{}: volume_g is {}: give a value in (-1, 1)", where, volume.g);
@@ -1013,30 +1346,24 @@ VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm:
   return volume;
 }
 
-// The GPU will hold it in single precision.
-bool fitsFloat(const glm::dmat4& matrix) {
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row)
-      if (!(std::abs(matrix[column][row]) <= std::numeric_limits<float>::max())) return false;
-  return true;
-}
-
-Scene convert(const Model& model, const fs::path& path, Faults& faults) {
+Scene convert(Model model, const fs::path& path, std::optional<double> seconds, Faults& faults) {
   checkExtensions(model, faults);
-  if (!model.animations.empty()) faults.warnOnce("animations are not supported: the scene stands still");
   Scene scene;
   Accessors accessors(model, faults);
+  if (seconds) Animations(model, faults, accessors).pose(*seconds);
+  if (seconds && model.animations.empty()) faults.warnOnce("has no animations: it is at rest at any time");
+  const std::vector<NodeGraph::Placed> nodes = NodeGraph(model, faults).place();
   Materials materials(model, faults, accessors, scene);
   materials.readAll();
-  Meshes meshes(model, faults, accessors, materials, scene);
+  Skins skins(model, faults, accessors, nodes);
+  Meshes meshes(model, faults, accessors, materials, skins, scene);
 
-  for (const NodeGraph::Placed& placed : NodeGraph(model, faults).place()) {
+  for (const NodeGraph::Placed& placed : nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];
     const std::string where = nodeLabel(model, placed.node);
     if (!fitsFloat(placed.worldFromNode))
       faults.fail("{}: its transform is not finite: export it again", where);
-    if (node.mesh != -1) meshes.place(node.mesh, placed.worldFromNode, where);
-    if (node.skin != -1) faults.warnOnce("skins are not supported: meshes keep their rest pose");
+    if (node.mesh != -1) meshes.place(node, placed.worldFromNode, where);
     if (node.camera != -1)
       scene.cameras.push_back(readCamera(faults, faults.at(model.cameras, node.camera, where, "camera"),
                                          placed, node.name, where));
@@ -1054,10 +1381,10 @@ Scene convert(const Model& model, const fs::path& path, Faults& faults) {
 
 }  // namespace
 
-Scene readGltf(const fs::path& path) {
+Scene readGltf(const fs::path& path, std::optional<double> seconds) {
   Faults faults(path);
   try {
-    return convert(parse(path, faults), path, faults);
+    return convert(parse(path, faults), path, seconds, faults);
   } catch (const base::Error&) {
     throw;
   } catch (const std::bad_alloc&) {

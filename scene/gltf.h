@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "scene/scene.h"
 
@@ -13,10 +14,15 @@ namespace sfumato::scene {
 // Supported: node hierarchies of any depth and instances; triangles, strips and fans, indexed or not, of any
 // accessor (also strided, normalised and sparse); perspective and orthographic cameras; KHR_lights_punctual;
 // metallic-roughness materials with KHR_materials_transmission, _specular, _ior (folded into the specular
-// colour) and _emissive_strength; KHR_mesh_quantization; PNG and JPEG pictures; and volumes: a node with
-// extras "volume" (path relative to the file), "volume_grid", "volume_scale", "volume_albedo" (three
-// numbers), "volume_g". A warning, once each: points and lines, animations, skins, morph targets and
+// colour), _emissive_strength and _unlit; KHR_texture_transform; KHR_mesh_quantization; PNG and JPEG
+// pictures; and volumes: a node with extras "volume" (path relative to the file), "volume_grid",
+// "volume_scale", "volume_albedo" (three numbers), "volume_g". A warning, once each: points and lines, and
 // extensions that are used but not required and not supported. These are left out.
+//
+// `seconds`: the pose that all animations of the file have at that time, held before their first key and
+// after their last; of two that target the same property, the later one in the file counts. Without it the
+// scene is at rest, and animations are not read. Morph targets and skins are worked into the vertices:
+// instances that differ in shape have meshes of their own, and skinned ones stand in the world.
 //
 // What is guaranteed, so that no consumer needs a special case:
 // - every mesh has a material (the glTF default one is added last where a primitive names none), unit normals
@@ -32,6 +38,6 @@ namespace sfumato::scene {
 // range, a cyclic node graph, a number out of its range, a required extension that is not supported (named),
 // more than 2^26 vertices and indices, 2^22 instances, or 4 GiB of files beside it or of textures. Throws
 // Memory when that is more than the machine has.
-Scene readGltf(const std::filesystem::path& path);
+Scene readGltf(const std::filesystem::path& path, std::optional<double> seconds = {});
 
 }  // namespace sfumato::scene

@@ -83,7 +83,7 @@ class Guard : public nlohmann::json_sax<Json> {
 
   bool beyond32Bits(const std::string& value) {
     const std::string& name = keys_.empty() ? value : keys_.back();
-    if (name.starts_with("volume_") || name == "emissiveStrength")
+    if (name.starts_with("volume_") || name == "emissiveStrength" || name == "rotation")
       return stop(fmt::format("integer {} of \"{}\" is beyond 32 bits: write it with a decimal point", value,
                               printable(name)));
     return countValue();

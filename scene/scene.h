@@ -31,6 +31,16 @@ using lights::LightType;
 
 enum class Wrap { Repeat, ClampToEdge, MirroredRepeat };
 
+// How a texture is read where it is smaller on screen: filter within a level, then between levels.
+enum class Minify {
+  Nearest,
+  Linear,
+  NearestMipmapNearest,
+  LinearMipmapNearest,
+  NearestMipmapLinear,
+  LinearMipmapLinear
+};
+
 // 8-bit RGBA as stored in the file; the use says whether RGB is sRGB (base colour, emissive, specular
 // colour).
 struct Texture {
@@ -41,11 +51,13 @@ struct Texture {
   Wrap wrapS = Wrap::Repeat;
   Wrap wrapT = Wrap::Repeat;
   bool nearest = false;  // magnification filter
+  Minify minify = Minify::LinearMipmapLinear;
 };
 
 struct TextureUse {
-  int texture = -1;  // index in Scene::textures, -1: none (reads as 1, or a flat normal)
-  int uvSet = 0;     // 0 or 1
+  int texture = -1;                // index in Scene::textures, -1: none (reads as 1, or a flat normal)
+  int uvSet = 0;                   // 0 or 1
+  glm::mat3x2 textureFromUv{1.f};  // affine: what stands to the left of (u, v, 1)
 };
 
 enum class AlphaMode { Opaque, Mask, Blend };
@@ -71,6 +83,7 @@ struct Material {
   TextureUse specularTexture;  // A
   glm::vec3 specularColour{1.f};
   TextureUse specularColourTexture;
+  bool unlit = false;  // emits its base colour times alpha and reflects nothing, whatever stands above
 
   // Lets light through (BLEND or transmissive), so it lives in lists, not in the G-buffer.
   bool translucent() const { return alphaMode == AlphaMode::Blend || transmission > 0.f; }

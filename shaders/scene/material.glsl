@@ -36,21 +36,33 @@ float fragmentDepth() {
   return -vPositionView.z;
 }
 
-vec2 uvFor(int textureUnit) {
-  return (materials[materialNumber()].flags.y >> textureUnit & 1) != 0 ? vUv1 : vUv0;
+// A texture of the material, where its use reads it. Gradients are taken of what is interpolated, not of what
+// the material made of it: the lanes beside a triangle, which they need, may read no storage.
+vec4 materialTexture(sampler2D image, int unit) {
+  int number = materialNumber();
+  bool second = (materials[number].flags.y >> unit & 1) != 0;
+  vec3 uRow = materials[number].uvTransforms[2 * unit].xyz;
+  vec3 vRow = materials[number].uvTransforms[2 * unit + 1].xyz;
+  vec3 uv = vec3(second ? vUv1 : vUv0, 1.0);
+  vec4 gradient0 = vec4(dFdx(vUv0), dFdy(vUv0));
+  vec4 gradient1 = vec4(dFdx(vUv1), dFdy(vUv1));
+  vec4 gradient = second ? gradient1 : gradient0;
+  return textureGrad(image, vec2(dot(uRow, uv), dot(vRow, uv)),
+                     vec2(dot(uRow.xy, gradient.xy), dot(vRow.xy, gradient.xy)),
+                     vec2(dot(uRow.xy, gradient.zw), dot(vRow.xy, gradient.zw)));
 }
 
 // Linear base colour; alpha is coverage: 1 where the material is not BLEND, and cut at the cutoff for MASK.
 vec4 baseColour() {
   MaterialData material = materials[materialNumber()];
-  vec4 colour = material.baseColour * vColour * texture(baseColourTexture, uvFor(TEXTURE_BASE_COLOUR));
+  vec4 colour = material.baseColour * vColour * materialTexture(baseColourTexture, TEXTURE_BASE_COLOUR);
   if ((material.flags.x & MATERIAL_MASK) != 0) colour.a = colour.a < material.emissive.w ? 0.0 : 1.0;
   else if ((material.flags.x & MATERIAL_BLEND) == 0) colour.a = 1.0;
   return colour;
 }
 
 float transmission() {
-  return materials[materialNumber()].factors.w * texture(transmissionTexture, uvFor(TEXTURE_TRANSMISSION)).r;
+  return materials[materialNumber()].factors.w * materialTexture(transmissionTexture, TEXTURE_TRANSMISSION).r;
 }
 
 // t = 1 - a (1 - tau b): what passes, for the eye and for light alike.

@@ -17,31 +17,38 @@ vec3 geometricNormal() {
   return mat3(view.worldFromView) * nView;
 }
 
+// The side is that of the interpolated normal; a normal map may lean behind the triangle's plane.
 vec3 shadingNormal(MaterialData material, vec3 geometric) {
   vec3 n = normalize(vNormalWorld);
+  float side = dot(n, geometric) < 0.0 ? -1.0 : 1.0;
+  vec3 m = materialTexture(normalTexture, TEXTURE_NORMAL).xyz * 2.0 - 1.0;  // before the flow diverges
   if ((material.flags.x & MATERIAL_NORMAL_MAP) != 0) {
     vec3 t = normalize(vTangentWorld.xyz - n * dot(n, vTangentWorld.xyz));
     vec3 b = cross(n, t) * vTangentWorld.w;
-    vec3 m = texture(normalTexture, uvFor(TEXTURE_NORMAL)).xyz * 2.0 - 1.0;
     m.xy *= material.factors.z;
     n = normalize(mat3(t, b, n) * m);
   }
-  return dot(n, geometric) < 0.0 ? -n : n;
+  return side * n;
 }
 
 PackedSurface packSurface(vec4 base) {
   MaterialData material = materials[materialNumber()];
-  vec4 metallicRoughness = texture(metallicRoughnessTexture, uvFor(TEXTURE_METALLIC_ROUGHNESS));
+  vec4 metallicRoughness = materialTexture(metallicRoughnessTexture, TEXTURE_METALLIC_ROUGHNESS);
   float metallic = clamp(material.factors.x * metallicRoughness.b, 0.0, 1.0);
   float roughness = clamp(material.factors.y * metallicRoughness.g, 0.03, 1.0);
-  float specular = material.specularColour.w * texture(specularTexture, uvFor(TEXTURE_SPECULAR)).a;
-  vec3 specularColour = material.specularColour.rgb * texture(specularColourTexture, uvFor(TEXTURE_SPECULAR_COLOUR)).rgb;
-  vec3 emissive = material.emissive.rgb * texture(emissiveTexture, uvFor(TEXTURE_EMISSIVE)).rgb * base.a;
+  float specular = material.specularColour.w * materialTexture(specularTexture, TEXTURE_SPECULAR).a;
+  vec3 specularColour = material.specularColour.rgb * materialTexture(specularColourTexture, TEXTURE_SPECULAR_COLOUR).rgb;
+  vec3 emissive = material.emissive.rgb * materialTexture(emissiveTexture, TEXTURE_EMISSIVE).rgb * base.a;
   float tau = transmission();
 
   vec3 diffuse = base.rgb * ((1.0 - metallic) * base.a * (1.0 - tau));
   vec3 f0 = mix(min(0.04 * specularColour, 1.0) * specular, base.rgb, metallic) * base.a;
   float f90 = mix(specular, 1.0, metallic) * base.a;
+  if ((material.flags.x & MATERIAL_UNLIT) != 0) {
+    emissive = base.rgb * base.a;
+    diffuse = f0 = vec3(0.0);
+    f90 = 0.0;
+  }
   vec3 pass = passThrough(base, tau);
   vec3 geometric = geometricNormal();
 

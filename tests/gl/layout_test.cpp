@@ -45,7 +45,7 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"MaterialData",
        {sizeof(shared::MaterialData),
         {AT(MaterialData, baseColour), AT(MaterialData, emissive), AT(MaterialData, specularColour),
-         AT(MaterialData, factors), AT(MaterialData, flags)}}},
+         AT(MaterialData, factors), AT(MaterialData, flags), AT(MaterialData, uvTransforms)}}},
       {"PackedSurface",
        {sizeof(shared::PackedSurface),
         {AT(PackedSurface, normal), AT(PackedSurface, geometricNormal), AT(PackedSurface, diffuseRg),
@@ -111,7 +111,7 @@ std::map<std::string, std::vector<std::string>> structsInHeaders() {
     const std::regex structure(R"(struct (\w+) \{([^}]*)\};)");
     for (std::sregex_iterator match(content.begin(), content.end(), structure), end; match != end; ++match) {
       const std::string body = (*match)[2];
-      const std::regex member(R"(\n\s*\w+ (\w+);)");
+      const std::regex member(R"(\n\s*\w+ (\w+)(?:\[[^\]]*\])?;)");
       for (std::sregex_iterator at(body.begin(), body.end(), member); at != end; ++at)
         found[(*match)[1]].push_back((*at)[1]);
     }
@@ -127,7 +127,7 @@ Layout driverLayout(Device& device, const std::string& name, bool uniform) {
                          {"BLOCK", uniform ? "uniform" : "readonly buffer"}});
   Layout layout{0, {}};
   size_t second = 0;
-  const std::regex member(R"((?:Subject\.)?subject\[([01])\]\.(\w+))");
+  const std::regex member(R"((?:Subject\.)?subject\[([01])\]\.(\w+)(?:\[0\])?)");
   for (const BlockMember& variable : uniform ? program.uniformMembers() : program.storageMembers()) {
     std::smatch match;
     if (!std::regex_match(variable.name, match, member)) continue;

@@ -160,6 +160,17 @@ TEST(ReferenceShading, AlphaAndTransmissionTakeFromTheDiffuseTerm) {
   EXPECT_DOUBLE_EQ(r.alpha, 0.5);
 }
 
+TEST(ReferenceShading, UnlitEmitsItsColourAndReflectsNothing) {
+  scene::Material material = tests::veil({0.8f, 0.4f, 0.2f}, 0.5f);
+  material.specular = 1;
+  material.metallic = 0.5f;
+  material.emissive = {4, 2, 1};
+  material.unlit = true;
+  const Reflector r = reflector(material);
+  expectNear(r.emitted, glm::dvec3(0.4, 0.2, 0.1), 1e-7);
+  EXPECT_EQ(brdf(r, direction(0.3, 0), direction(1.2, 2)), glm::dvec3(0));
+}
+
 TEST(ReferenceShading, PointLightFallsWithTheSquareAndItsWindow) {
   scene::Light light = tests::pointLight({0, 3, 4}, {10, 20, 30});
   const Illumination far = illuminate(light, {0, 0, 0});

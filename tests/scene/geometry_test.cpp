@@ -75,7 +75,7 @@ TEST(NormaliseNormals, ZeroTakesTheFace) {
 
 TEST(ComputeTangents, SquareWithUpright) {
   Mesh mesh = square();
-  computeTangents(mesh, 0);
+  computeTangents(mesh, {});
   ASSERT_EQ(mesh.vertices.size(), 4u);
   for (const Vertex& v : mesh.vertices) {
     expectNear(v.tangent, {1, 0, 0});
@@ -87,7 +87,7 @@ TEST(ComputeTangents, SquareWithUpright) {
 TEST(ComputeTangents, MirroredTexture) {
   Mesh mesh = square();
   for (Vertex& v : mesh.vertices) v.uv0.x = 1 - v.uv0.x;
-  computeTangents(mesh, 0);
+  computeTangents(mesh, {});
   for (const Vertex& v : mesh.vertices) {
     expectNear(v.tangent, {-1, 0, 0});
     EXPECT_EQ(v.tangent.w, -1.f);
@@ -98,10 +98,20 @@ TEST(ComputeTangents, MirroredTexture) {
 TEST(ComputeTangents, UsesTheSecondUvSet) {
   Mesh mesh = square();
   for (Vertex& v : mesh.vertices) v.uv1 = {1 - v.uv0.y, v.uv0.x};  // turned by a quarter: u runs along +Y
-  computeTangents(mesh, 1);
+  computeTangents(mesh, {.uvSet = 1});
   for (const Vertex& v : mesh.vertices) {
     expectNear(v.tangent, {0, 1, 0});
     expectNear(glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w, {-1, 0, 0});
+  }
+}
+
+TEST(ComputeTangents, FollowTheTextureWhereItIsTurned) {
+  Mesh mesh = square();
+  // u' = 2 v, v' = -u: the texture's u runs along where v falls, its v falls along +X.
+  computeTangents(mesh, {.textureFromUv = glm::mat3x2(0, -1, 2, 0, 5, 7)});
+  for (const Vertex& v : mesh.vertices) {
+    expectNear(v.tangent, {0, -1, 0});
+    expectNear(glm::cross(v.normal, glm::vec3(v.tangent)) * v.tangent.w, {1, 0, 0});
   }
 }
 
@@ -111,7 +121,7 @@ TEST(ComputeTangents, SeamOfMirroredTextureSplitsVertices) {
   mesh.vertices = {vertex({-1, 0, 0}, {0, 1}), vertex({0, 0, 0}, {1, 1}), vertex({0, 1, 0}, {1, 0}),
                    vertex({-1, 1, 0}, {0, 0}), vertex({1, 0, 0}, {0, 1}), vertex({1, 1, 0}, {0, 0})};
   mesh.indices = {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2};
-  computeTangents(mesh, 0);
+  computeTangents(mesh, {});
   ASSERT_EQ(mesh.vertices.size(), 8u);
   for (size_t i = 0; i < mesh.indices.size(); ++i) {
     const Vertex& v = mesh.vertices[mesh.indices[i]];
@@ -138,7 +148,7 @@ TEST(ComputeTangents, CurvedSurfaceStaysAcrossTheNormal) {
     const uint32_t a = 2 * i;
     mesh.indices.insert(mesh.indices.end(), {a, a + 2, a + 3, a, a + 3, a + 1});
   }
-  computeTangents(mesh, 0);
+  computeTangents(mesh, {});
   for (const Vertex& v : mesh.vertices) {
     expectNear(v.tangent, {v.normal.z, 0, -v.normal.x}, 1e-5f);
     EXPECT_EQ(v.tangent.w, 1.f);
@@ -148,7 +158,7 @@ TEST(ComputeTangents, CurvedSurfaceStaysAcrossTheNormal) {
 TEST(ComputeTangents, WithoutTextureCoordinatesAnyAcross) {
   Mesh mesh = square();
   for (Vertex& v : mesh.vertices) v.uv0 = {0.5f, 0.5f};
-  computeTangents(mesh, 0);
+  computeTangents(mesh, {});
   ASSERT_EQ(mesh.vertices.size(), 4u);
   for (const Vertex& v : mesh.vertices) {
     EXPECT_NEAR(glm::length(glm::vec3(v.tangent)), 1.f, 1e-6f);

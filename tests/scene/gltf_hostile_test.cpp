@@ -13,6 +13,7 @@
 #include "tests/image/openimageio.h"
 #include "tests/image/png_builder.h"
 #include "tests/scene/gltf_builder.h"
+#include "tests/scene/gltf_moving.h"
 
 namespace sfumato::scene {
 namespace {
@@ -30,9 +31,9 @@ class GltfHostile : public testing::Test {
 };
 
 // The error line of a file that must not load; "" when it loads.
-std::string errorOf(const fs::path& path) {
+std::string errorOf(const fs::path& path, std::optional<double> seconds = {}) {
   try {
-    readGltf(path);
+    readGltf(path, seconds);
   } catch (const base::Error& error) {
     EXPECT_EQ(error.exitCode, base::ExitCode::Input);
     const std::string line = error.what();
@@ -74,7 +75,10 @@ GltfBuilder everything() {
       {{"name", "paint"},
        {"pbrMetallicRoughness",
         {{"baseColorFactor", {1, 1, 1, 1}}, {"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.5}}},
-       {"normalTexture", {{"index", 0}}},
+       {"normalTexture",
+        {{"index", 0},
+         {"extensions",
+          {{"KHR_texture_transform", {{"offset", {0.5, 0.5}}, {"rotation", 0.5}, {"scale", {2, 2}}}}}}}},
        {"alphaMode", "BLEND"},
        {"emissiveFactor", {0, 0, 1}},
        {"extensions",
@@ -138,6 +142,9 @@ Json& orthographic(Json& j) {
 Json& extension(Json& j, const char* name) {
   return j["materials"][0]["extensions"][name];
 }
+Json& textureTransform(Json& j) {
+  return j["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"];
+}
 Json sparse(int count, int indexView, int indexType, int valueView) {
   return {{"count", count},
           {"indices", {{"bufferView", indexView}, {"componentType", indexType}}},
@@ -168,10 +175,19 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"texture info is a number",
        [](Json& j) { extension(j, "KHR_materials_transmission")["transmissionTexture"] = 3; }, "texture -1"},
       {"uv set", [](Json& j) { j["materials"][0]["normalTexture"]["texCoord"] = 2; }, "TEXCOORD_2"},
+      {"texture offset of three", [](Json& j) { textureTransform(j)["offset"] = {1, 2, 3}; },
+       "offset is not an array of 2 numbers"},
+      {"texture scale too large", [](Json& j) { textureTransform(j)["scale"] = {1e300, 1}; }, "texture scale is 1e+300"},
+      {"texture rotation is text", [](Json& j) { textureTransform(j)["rotation"] = "left"; },
+       "rotation is not a number"},
+      {"texture rotation beyond 32 bits", [](Json& j) { textureTransform(j)["rotation"] = 5000000000; }, "rotation"},
+      {"texture transform's uv set", [](Json& j) { textureTransform(j)["texCoord"] = 7; }, "TEXCOORD_7"},
       {"image", [](Json& j) { j["textures"][0]["source"] = 4; }, "there is no image 4"},
       {"no image", [](Json& j) { j["textures"][0].erase("source"); }, "there is no image -1"},
       {"sampler", [](Json& j) { j["textures"][0]["sampler"] = 4; }, "there is no sampler 4"},
       {"wrap", [](Json& j) { j["samplers"][0]["wrapS"] = 1; }, "wrap mode 1"},
+      {"magFilter", [](Json& j) { j["samplers"][0]["magFilter"] = 9984; }, "magFilter 9984"},
+      {"minFilter", [](Json& j) { j["samplers"][0]["minFilter"] = 7; }, "minFilter 7"},
       {"position accessor", [](Json& j) { primitive(j)["attributes"]["POSITION"] = 99; }, "accessor 99"},
       {"negative accessor", [](Json& j) { primitive(j)["attributes"]["NORMAL"] = -1; }, "accessor -1"},
       {"indices accessor", [](Json& j) { primitive(j)["indices"] = 99; }, "out of bounds"},
@@ -358,7 +374,7 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
        [](Json& j) { extension(j, "KHR_materials_transmission")["transmissionFactor"] = "full"; },
        "transmissionFactor is not a number"},
       {"specular colour", [](Json& j) { extension(j, "KHR_materials_specular")["specularColorFactor"] = {1, 1}; },
-       "not three numbers"},
+       "not an array of 3 numbers"},
       {"ior", [](Json& j) { extension(j, "KHR_materials_ior")["ior"] = 0.5; }, "ior is 0.5"},
 
       // Volumes.
@@ -370,9 +386,9 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"scale beyond 32 bits", [](Json& j) { volume(j)["volume_scale"] = 5000000000; }, "volume_scale"},
       {"albedo above 1", [](Json& j) { volume(j)["volume_albedo"] = {0, 0, 1.01}; }, "volume_albedo is 1.01"},
       {"albedo below 0", [](Json& j) { volume(j)["volume_albedo"] = {0, -0.5, 1}; }, "volume_albedo is -0.5"},
-      {"albedo is a number", [](Json& j) { volume(j)["volume_albedo"] = 0.5; }, "not three numbers"},
-      {"albedo of four", [](Json& j) { volume(j)["volume_albedo"] = {0, 0, 0, 0}; }, "not three numbers"},
-      {"albedo with text", [](Json& j) { volume(j)["volume_albedo"] = {0, "x", 0}; }, "not three numbers"},
+      {"albedo is a number", [](Json& j) { volume(j)["volume_albedo"] = 0.5; }, "not an array of 3 numbers"},
+      {"albedo of four", [](Json& j) { volume(j)["volume_albedo"] = {0, 0, 0, 0}; }, "not an array of 3 numbers"},
+      {"albedo with text", [](Json& j) { volume(j)["volume_albedo"] = {0, "x", 0}; }, "not an array of 3 numbers"},
       {"g of 1", [](Json& j) { volume(j)["volume_g"] = 1; }, "volume_g is 1"},
       {"g of -1", [](Json& j) { volume(j)["volume_g"] = -1.0; }, "volume_g is -1"},
       {"g is true", [](Json& j) { volume(j)["volume_g"] = true; }, "volume_g is not a number"},
@@ -400,6 +416,156 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
     gltf.json = Json::parse(gltf.text());  // with its buffer in it
     damage.apply(gltf.json);
     expectError(errorOf(folder.write("scene.gltf", gltf.json.dump())), damage.says, damage.name);
+  }
+}
+
+// The ribbon with a morph target; its weights and its elbow move.
+GltfBuilder moving() {
+  GltfBuilder gltf = test::bendingRibbon();
+  std::vector<float> offsets(18, 0.5f);
+  gltf.json["meshes"][0]["primitives"][0]["targets"] =
+      Json::array({{{"POSITION", gltf.accessor<float>("VEC3", offsets)}}});
+  gltf.json["meshes"][0]["weights"] = {0.5};
+  Json& animation = gltf.json["animations"][0];
+  animation["samplers"].push_back({{"input", gltf.accessor<float>("SCALAR", {0, 1, 2})},
+                                   {"output", gltf.accessor<float>("SCALAR", {0, 1, 0, 0, 0.5f, 0, 0, 1, 0})},
+                                   {"interpolation", "CUBICSPLINE"}});
+  animation["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "weights"}}}});
+  return gltf;
+}
+
+constexpr double posed = 0.75;  // seconds
+
+TEST_F(GltfHostile, EachDamageToWhatMovesIsNamed) {
+  ASSERT_EQ(errorOf(moving().text()), "");
+  // Accessors: 0 positions, 1 normals, 2 joints, 3 weights, 4 indices, 5 binds, 6 times, 7 turns, 8 morph
+  // target, 9 times, 10 weights.
+  const auto channel = [](Json& j) -> Json& { return j["animations"][0]["channels"][0]; };
+  const auto sampler = [](Json& j) -> Json& { return j["animations"][0]["samplers"][0]; };
+  const auto attributes = [](Json& j) -> Json& { return primitive(j)["attributes"]; };
+  const Damage damages[] = {
+      {"channel's sampler", [&](Json& j) { channel(j)["sampler"] = 9; },
+       "animation 0 channel 0: there is no sampler 9"},
+      {"channel's node", [&](Json& j) { channel(j)["target"]["node"] = 99; }, "there is no node 99"},
+      {"negative node", [&](Json& j) { channel(j)["target"]["node"] = -2; }, "there is no node -2"},
+      {"input", [&](Json& j) { sampler(j)["input"] = 99; }, "channel 0 input: there is no accessor 99"},
+      {"output", [&](Json& j) { sampler(j)["output"] = -3; }, "channel 0 output: there is no accessor -3"},
+      {"input of triples", [&](Json& j) { sampler(j)["input"] = 0; }, "does not have 1 component"},
+      {"output of triples", [&](Json& j) { sampler(j)["output"] = 0; }, "does not have 4 component"},
+      {"input descends", [&](Json& j) { sampler(j)["input"] = 10; }, "input: key 2 is not later than"},
+      {"too few outputs", [&](Json& j) { sampler(j)["input"] = 9; }, "has 8 numbers, but 3 keys need 12"},
+      {"cubic without tangents", [&](Json& j) { sampler(j)["interpolation"] = "CUBICSPLINE"; },
+       "has 8 numbers, but 2 keys need 24"},
+      {"interpolation", [&](Json& j) { sampler(j)["interpolation"] = "SMOOTH"; }, "interpolation \"SMOOTH\""},
+      {"matrix animated",
+       [](Json& j) {
+         j["nodes"][2] = {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1}}};
+       },
+       "node 2 has a matrix"},
+      {"weights of a node without a mesh",
+       [](Json& j) { j["animations"][0]["channels"][1]["target"]["node"] = 1; }, "there is no mesh -1"},
+      {"weights without targets", [](Json& j) { primitive(j).erase("targets"); }, "has no morph targets"},
+      {"rotation of nothing", [](Json& j) { j["accessors"][7].erase("bufferView"); }, "not a quaternion"},
+
+      {"target's accessor", [](Json& j) { primitive(j)["targets"][0]["POSITION"] = 99; },
+       "morph target 0 POSITION: there is no accessor 99"},
+      {"target of other length", [](Json& j) { j["accessors"][8]["count"] = 5; },
+       "5 elements for 6 vertices"},
+      {"target of pairs", [](Json& j) { j["accessors"][8]["type"] = "VEC2"; }, "does not have 3 component"},
+      {"weights of the mesh",
+       [](Json& j) {
+         j["animations"][0]["channels"].erase(1);
+         j["meshes"][0]["weights"] = {1, 2};
+       },
+       "2 weights for 1 morph targets"},
+      {"weights of the node",
+       [](Json& j) {
+         j["animations"][0]["channels"].erase(1);
+         j["nodes"][0]["weights"] = {1, 2};
+       },
+       "2 weights for 1 morph targets"},
+      {"huge weight",
+       [](Json& j) {
+         j["animations"][0]["channels"].erase(1);
+         j["nodes"][0]["weights"] = {1e300};
+       },
+       "morph weight is 1e+300"},
+      {"weight that leads to infinity",
+       [](Json& j) {
+         j["animations"][0]["channels"].erase(1);
+         j["nodes"][0]["weights"] = {3e38};
+         j["nodes"][1]["scale"] = {100, 100, 100};
+       },
+       "moved to where it is not finite"},
+      {"second primitive without targets",
+       [](Json& j) {
+         Json& primitives = j["meshes"][0]["primitives"];
+         primitives.push_back(primitives[0]);
+         primitives[1].erase("targets");
+       },
+       "primitive 1: has 0 morph targets for 1 weights"},
+
+      {"skin", [](Json& j) { j["nodes"][0]["skin"] = 1; }, "there is no skin 1"},
+      {"negative skin", [](Json& j) { j["nodes"][0]["skin"] = -7; }, "there is no skin -7"},
+      {"joint's node",
+       [](Json& j) {
+         j["skins"][0]["joints"] = {1, 99};
+       },
+       "skin 0: there is no node 99"},
+      {"negative joint",
+       [](Json& j) {
+         j["skins"][0]["joints"] = {1, -1};
+       },
+       "skin 0: there is no node -1"},
+      {"no joints", [](Json& j) { j["skins"][0]["joints"] = Json::array(); }, "skin 0: has no joints"},
+      {"joint out of range", [](Json& j) { j["skins"][0]["joints"] = {1}; },
+       "follows joint 1, but the skin has 1"},
+      {"joint outside the scene",
+       [](Json& j) {
+         j["scenes"] = {{{"nodes", {0}}}};
+       },
+       "node 1 \"shoulder\", is not in the scene"},
+      {"cyclic skeleton", [](Json& j) { j["nodes"][2]["children"] = {1}; }, "its own ancestor"},
+      {"inverse bind matrices", [](Json& j) { j["skins"][0]["inverseBindMatrices"] = 99; },
+       "there is no accessor 99"},
+      {"too few of them", [](Json& j) { j["accessors"][5]["count"] = 1; },
+       "1 inverse bind matrices for 2 joints"},
+      {"of vectors", [](Json& j) { j["skins"][0]["inverseBindMatrices"] = 0; }, "does not have 16 component"},
+      {"perspective ones", [](Json& j) { j["bufferViews"][5]["byteOffset"] = 0; }, "not affine"},
+      {"no joints of vertices", [&](Json& j) { attributes(j).erase("JOINTS_0"); },
+       "no JOINTS_0 and WEIGHTS_0"},
+      {"no weights of vertices", [&](Json& j) { attributes(j).erase("WEIGHTS_0"); },
+       "no JOINTS_0 and WEIGHTS_0"},
+      {"half a second set", [&](Json& j) { attributes(j)["JOINTS_1"] = 2; },
+       "only one of JOINTS_1 and WEIGHTS_1"},
+      {"joints of other length", [](Json& j) { j["accessors"][2]["count"] = 5; },
+       "5 elements for 6 vertices"},
+      {"weights are all 0", [](Json& j) { j["accessors"][3].erase("bufferView"); },
+       "vertex 0 follows no joint"},
+      {"huge skeleton",
+       [](Json& j) {
+         j["nodes"][1]["scale"] = {1e39, 1e39, 1e39};
+       },
+       "not finite"},
+  };
+  const TemporaryFolder folder("gltf_moving");
+  for (const Damage& damage : damages) {
+    GltfBuilder gltf = moving();
+    gltf.json = Json::parse(gltf.text());
+    damage.apply(gltf.json);
+    expectError(errorOf(folder.write("scene.gltf", gltf.json.dump()), posed), damage.says, damage.name);
+  }
+}
+
+TEST_F(GltfHostile, WeightsThatAreNoWeights) {
+  for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity(), -0.5f}) {
+    GltfBuilder gltf = moving();
+    std::vector<float> weights(24, 0.25f);
+    weights[21] = bad;
+    gltf.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
+        gltf.accessor<float>("VEC4", weights);
+    expectError(errorOf(gltf.text()), bad < 0 ? "a weight of vertex 5 is -0.5" : "element 5 is not finite",
+                "weight");
   }
 }
 
@@ -553,7 +719,7 @@ std::string mutated(std::string file, base::Random& random) {
   return file;
 }
 
-void fuzz(const std::string& good, const std::string& name, int runs) {
+void fuzz(const std::string& good, const std::string& name, int runs, std::optional<double> seconds = {}) {
   const TemporaryFolder folder("gltf_fuzz");
   const base::Verbosity before = base::verbosity();
   base::setVerbosity(base::Verbosity::Quiet);
@@ -561,7 +727,7 @@ void fuzz(const std::string& good, const std::string& name, int runs) {
   for (int run = 0; run < runs; ++run) {
     base::Random random(static_cast<uint64_t>(run));
     SCOPED_TRACE(fmt::format("run {} of {}", run, name));
-    loaded += errorOf(folder.write(name, mutated(good, random))).empty();
+    loaded += errorOf(folder.write(name, mutated(good, random)), seconds).empty();
   }
   base::setVerbosity(before);
   // Neither all nor none: the mutations reach behind the parser, and are noticed.
@@ -576,9 +742,13 @@ TEST_F(GltfHostile, MutatedBinaryLoadsOrFailsInOneLine) {
   fuzz(everything().binary(), "scene.glb", 2000);
 }
 
+TEST_F(GltfHostile, MutatedMotionLoadsOrFailsInOneLine) {
+  fuzz(moving().text(), "scene.gltf", 2000, posed);
+  fuzz(moving().binary(), "scene.glb", 2000, posed);
+}
+
 // Each value of the JSON in turn becomes something else.
-TEST_F(GltfHostile, EachValueReplaced) {
-  GltfBuilder gltf = everything();
+void replaceEachValue(const GltfBuilder& gltf, std::optional<double> seconds) {
   const Json good = Json::parse(gltf.text());
   const TemporaryFolder folder("gltf_replaced");
   const base::Verbosity before = base::verbosity();
@@ -592,9 +762,14 @@ TEST_F(GltfHostile, EachValueReplaced) {
       Json bad = good;
       bad[Json::json_pointer(item.key())] = other;
       SCOPED_TRACE(item.key() + " = " + other.dump());
-      errorOf(folder.write("scene.gltf", bad.dump()));
+      errorOf(folder.write("scene.gltf", bad.dump()), seconds);
     }
   base::setVerbosity(before);
+}
+
+TEST_F(GltfHostile, EachValueReplaced) {
+  replaceEachValue(everything(), {});
+  replaceEachValue(moving(), posed);
 }
 
 }  // namespace
