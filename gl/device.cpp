@@ -55,6 +55,7 @@ void requireLibraries() {
 
 std::vector<Candidate> candidates() {
   requireLibraries();
+  setenv("EGL_LOG_LEVEL", "fatal", 0);  // our line says what failed, without Mesa's before it
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> found;
   if (hasWord(extensions, "EGL_EXT_platform_device") &&
