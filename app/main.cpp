@@ -182,7 +182,7 @@ void finishRender(app::RenderOptions& options, const RenderText& text) {
   if (!text.albedo.empty()) options.volumeAlbedo = vectorOf(text.albedo);
 }
 
-// The same for what CLI11 says in its own order: the argument, what is wrong.
+// CLI11 words its other messages as ours, these two not: the argument, what is wrong.
 std::string describe(const CLI::ExtrasError&, const CLI::App& program) {
   const std::string argument = program.remaining(true).front();
   if (argument.starts_with('-')) return argument + ": no such option";
