@@ -61,6 +61,7 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--look-at", 3, {"1e10", "1e400"}},
            {"--shadow-res", 1, {"31", "16385", "64.5", "1e3"}},
            {"--repeat", 1, {"0", "-1", "1001", "1.5"}},
+           {"--samples", 1, {"0", "-1", "65", "1.5"}},
        }) {
     std::vector<std::string> texts = {"nan", "-nan", "inf", "-inf", "", "foo", "1 2", "1,5", "++1", "5e"};
     texts.insert(texts.end(), number.outside.begin(), number.outside.end());
@@ -74,8 +75,8 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
 }
 
 TEST(CommandLine, ShowsHelpAndVersion) {
-  for (const Arguments& arguments :
-       std::vector<Arguments>{{"--help"}, {"-h"}, {"render", "--help"}, {"info", "--help"}}) {
+  for (const Arguments& arguments : std::vector<Arguments>{
+           {"--help"}, {"-h"}, {"render", "--help"}, {"compare", "--help"}, {"info", "--help"}}) {
     const Outcome outcome = runProgram(folder().path(), arguments);
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
@@ -108,7 +109,8 @@ TEST(CommandLine, SurvivesClosedStderr) {
 
 #ifndef SFUMATO_GL
 TEST(CommandLine, SaysThatItWasBuiltWithoutOpenGl) {
-  expectErrors(folder().path(), {{{"render", "a.gltf", "-o", "a.png"}, 4, "built without OpenGL"},
+  folder().write("empty.gltf", GltfBuilder().text());
+  expectErrors(folder().path(), {{{"render", "empty.gltf", "-q", "-o", "a.png"}, 4, "built without OpenGL"},
                                  {{"info"}, 4, "built without OpenGL"}});
 }
 #endif
