@@ -122,6 +122,7 @@ image::Metadata metadata(const RenderOptions& options, const gl::Device& device,
           {"sfumato:device", device.names().renderer},
           {"sfumato:scene", options.scene},
           {"sfumato:quality", options.quality},
+          {"sfumato:samples", fmt::format("{}", quality.samples)},
           {"sfumato:step_voxels", fmt::format("{}", quality.stepVoxels)},
           {"sfumato:shadow_resolution", fmt::format("{}", quality.shadowResolution)},
           {"sfumato:shadow_error", fmt::format("{}", quality.shadowError)}};
@@ -166,9 +167,10 @@ void printPlan(const RenderOptions& options, const scene::Scene& scene,
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
   base::print(
-      "frame    {}x{}, quality {}: step {} voxels, shadow maps {} texels a side, error bound {:.5f}\n",
-      options.width, options.height, options.quality, quality.stepVoxels, quality.shadowResolution,
-      quality.shadowError);
+      "frame    {}x{}, quality {}: {} samples at edges, step {} voxels, shadow maps {} texels a side, error "
+      "bound {:.5f}\n",
+      options.width, options.height, options.quality, quality.samples, quality.stepVoxels,
+      quality.shadowResolution, quality.shadowError);
   for (const std::string& output : options.outputs) base::print("output   {}\n", output);
   if (!options.statistics.empty()) base::print("output   {}\n", options.statistics);
 }
