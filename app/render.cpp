@@ -138,6 +138,7 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
   if (options.reference) {
     result.emplace_back("sfumato:samples", fmt::format("{}", options.samples * options.samples));
   } else {
+    result.emplace_back("sfumato:samples_at_edges", fmt::format("{}", shot.quality.samples));
     result.emplace_back("sfumato:shadow_resolution", fmt::format("{}", shot.quality.shadowResolution));
     result.emplace_back("sfumato:shadow_error", fmt::format("{}", shot.quality.shadowError));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
@@ -176,9 +177,9 @@ void checkOutputs(const RenderOptions& options) {
 }
 
 std::string wayOfDrawing(const RenderOptions& options, const pipelines::Quality& quality) {
-  if (options.reference) return fmt::format("CPU reference with {0} x {0} samples a pixel", options.samples);
-  return fmt::format("shadow maps {} texels a side, error bound {:.5f}", quality.shadowResolution,
-                     quality.shadowError);
+  if (options.reference) return fmt::format("CPU reference, {0} x {0} samples a pixel", options.samples);
+  return fmt::format("{} samples at edges, shadow maps {} texels a side, error bound {:.5f}", quality.samples,
+                     quality.shadowResolution, quality.shadowError);
 }
 
 void printPlan(const RenderOptions& options, const Shot& shot) {

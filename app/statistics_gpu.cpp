@@ -32,6 +32,7 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
   result["frame"] = {{"seconds", times.frameSeconds},
                      {"passes", toJson(times.framePasses)},
                      {"triangles", statistics.triangles},
+                     {"split_pixels", statistics.splitPixels},
                      {"resolve_dispatches", statistics.resolveDispatches},
                      {"cut_walks", statistics.cutWalks}};
   result["lists"] = {{"surfaces", toJson(statistics.surfaces)}, {"lights", toJson(statistics.lights)}};

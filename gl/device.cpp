@@ -104,7 +104,9 @@ Limits readLimits() {
   limits.textureBufferTexels = glInteger<int64_t>(GL_MAX_TEXTURE_BUFFER_SIZE);
   limits.framebufferSize =
       std::min(glInteger(GL_MAX_FRAMEBUFFER_WIDTH), glInteger(GL_MAX_FRAMEBUFFER_HEIGHT));
-  limits.samples = glInteger(GL_MAX_SAMPLES);
+  limits.samples =
+      std::min({glInteger(GL_MAX_SAMPLES), glInteger(GL_MAX_INTEGER_SAMPLES),
+                glInteger(GL_MAX_COLOR_TEXTURE_SAMPLES), glInteger(GL_MAX_DEPTH_TEXTURE_SAMPLES)});
   glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &limits.timerBits);
   limits.clipControl = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
   return limits;

@@ -36,7 +36,7 @@ struct Limits {
   int texture3dSize = 0;
   int framebufferSize = 0;
   int64_t textureBufferTexels = 0;
-  int samples = 0;
+  int samples = 0;  // that every texture format can have
   int timerBits = 0;
   bool clipControl = false;
 };

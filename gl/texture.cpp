@@ -48,6 +48,11 @@ GLint wrapping(Wrapping wrap) {
   return values[static_cast<int>(wrap)];
 }
 
+GLenum targetOf(const TextureDescription& description) {
+  if (description.samples > 0) return GL_TEXTURE_2D_MULTISAMPLE;
+  return description.size.z > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D;
+}
+
 void checkSize(const Device& device, const std::string& label, glm::ivec3 size) {
   const int limit = size.z > 1 ? device.limits().texture3dSize : device.limits().texture2dSize;
   const int largest = std::max({size.x, size.y, size.z});
@@ -62,12 +67,12 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
                  std::span<const std::byte> texels)
     : ledger_(&device.memory()),
       label_(std::move(label)),
-      target_(description.size.z > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D),
+      target_(targetOf(description)),
       size_(description.size) {
   checkSize(device, label_, size_);
   const FormatTraits format = traits(description.format);
   bytes_ = static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z) *
-           format.bytes;
+           format.bytes * static_cast<size_t>(std::max(description.samples, 1));
   base::check(texels.empty() || texels.size() == bytes_, "a texture gets as many texels as it has");
   const bool mipmaps = description.filter == Filter::LinearMipmap;
   const int levels = mipmaps ? 1 + static_cast<int>(std::log2(std::max(size_.x, size_.y))) : 1;
@@ -79,7 +84,9 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
   glBindTexture(target_, name);
   while (glGetError() != GL_NO_ERROR) {
   }
-  if (target_ == GL_TEXTURE_3D)
+  if (target_ == GL_TEXTURE_2D_MULTISAMPLE)
+    glTexStorage2DMultisample(target_, description.samples, format.internal, size_.x, size_.y, GL_TRUE);
+  else if (target_ == GL_TEXTURE_3D)
     glTexStorage3D(target_, levels, format.internal, size_.x, size_.y, size_.z);
   else
     glTexStorage2D(target_, levels, format.internal, size_.x, size_.y);
@@ -94,12 +101,14 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
       glTexSubImage2D(target_, 0, 0, 0, size_.x, size_.y, format.layout, format.type, texels.data());
     if (mipmaps) glGenerateMipmap(target_);
   }
-  const GLint magnify = description.filter == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
-  glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
-  glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, mipmaps ? GL_LINEAR_MIPMAP_LINEAR : magnify);
-  glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
-  glTexParameteri(target_, GL_TEXTURE_WRAP_T, wrapping(description.wrapT));
-  glTexParameteri(target_, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+  if (target_ != GL_TEXTURE_2D_MULTISAMPLE) {
+    const GLint magnify = description.filter == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
+    glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
+    glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, mipmaps ? GL_LINEAR_MIPMAP_LINEAR : magnify);
+    glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
+    glTexParameteri(target_, GL_TEXTURE_WRAP_T, wrapping(description.wrapT));
+    glTexParameteri(target_, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+  }
   if (mipmaps) bytes_ += bytes_ / 3;
   ledger_->add(label_, bytes_);
 }
@@ -153,13 +162,14 @@ void BufferTexture::bind(unsigned unit) const {
   glBindTexture(GL_TEXTURE_BUFFER, object_.name());
 }
 
-Framebuffer::Framebuffer(glm::ivec2 size) : size_(size) {
+Framebuffer::Framebuffer(glm::ivec2 size, int samples) : size_(size) {
   GLuint name = 0;
   glGenFramebuffers(1, &name);
   object_ = Object<deleteFramebuffer>(name);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name);
   glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
   glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
+  glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_SAMPLES, samples > 1 ? samples : 0);
   glDrawBuffer(GL_NONE);
   base::check(glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
               "a framebuffer is complete");
@@ -210,6 +220,16 @@ void Framebuffer::clearColour(int attachment, glm::uvec4 value) const {
 void Framebuffer::clearDepth(float value) const {
   openMasks(*this);
   glClearBufferfv(GL_DEPTH, 0, &value);
+}
+
+std::vector<glm::vec2> Framebuffer::samplePositions() const {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name());
+  GLint samples = 0;
+  glGetIntegerv(GL_SAMPLES, &samples);
+  if (samples <= 1) return {glm::vec2(0.5f)};
+  std::vector<glm::vec2> positions(static_cast<size_t>(samples));
+  for (GLuint i = 0; i < positions.size(); ++i) glGetMultisamplefv(GL_SAMPLE_POSITION, i, &positions[i].x);
+  return positions;
 }
 
 }  // namespace sfumato::gl

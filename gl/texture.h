@@ -27,6 +27,7 @@ struct TextureDescription {
   Filter filter = Filter::Nearest;
   Wrapping wrapS = Wrapping::ClampToEdge;
   Wrapping wrapT = Wrapping::ClampToEdge;
+  int samples = 0;  // a pixel; 0: not a multisample texture (1 is one, with its sample in the middle)
 };
 
 class Texture {
@@ -71,7 +72,8 @@ class BufferTexture {
 class Framebuffer {
  public:
   // Nothing attached: only side effects of fragments count. `size`: its width and height.
-  explicit Framebuffer(glm::ivec2 size);
+  // `samples`: places in a pixel where coverage is told, 1: its centre.
+  explicit Framebuffer(glm::ivec2 size, int samples = 1);
   // Colour attachments in order, and a depth buffer or nullptr.
   Framebuffer(std::span<const Texture* const> colours, const Texture* depth);
 
@@ -80,6 +82,8 @@ class Framebuffer {
   void clearColour(int attachment, glm::vec4 value) const;
   void clearColour(int attachment, glm::uvec4 value) const;
   void clearDepth(float value) const;
+  // Where the samples of a pixel stand in it, in [0, 1]^2 from its lower left corner.
+  std::vector<glm::vec2> samplePositions() const;
 
  private:
   Object<deleteFramebuffer> object_;

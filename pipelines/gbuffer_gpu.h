@@ -1,6 +1,9 @@
 // The opaque surfaces that the camera sees.
 #pragma once
 
+#include <glm/glm.hpp>
+#include <vector>
+
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
@@ -8,12 +11,13 @@
 
 namespace sfumato::pipelines {
 
-// Words 0-3 and 4-7 of shared::PackedSurface, and depth in metres along -Z of the view (3e38: nothing).
-// 36 bytes a pixel.
+// Multisample textures: words 0-3 and 4-7 of shared::PackedSurface, and depth in metres along -Z of the view
+// (3e38: nothing). 36 bytes a sample; 40 while it is drawn.
 struct GBuffer {
   gl::Texture surface0;
   gl::Texture surface1;
   gl::Texture depth;
+  std::vector<glm::vec2> samplePositions;  // in the pixel, [0, 1]^2 from its lower left corner
 };
 
 struct GBufferInputs {
@@ -21,6 +25,7 @@ struct GBufferInputs {
   const gl::Buffer& view;  // shared::ViewParams
   int width = 0;
   int height = 0;
+  int samples = 1;  // a pixel
 };
 
 GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs);

@@ -26,6 +26,7 @@ struct FrameStatistics {
   lists::ListStatistics surfaces;             // of the camera
   lists::ListStatistics lights;               // light lists
   std::vector<deepshadow::LightMap> shadows;  // a light each, as in the scene
+  size_t splitPixels = 0;                     // walked sample by sample
   int resolveDispatches = 0;
   size_t cutWalks = 0;  // 0, or walks that a bound cut: the picture is then wrong, and the user is told
   size_t triangles = 0;
@@ -41,9 +42,8 @@ class LinkedListsPipeline {
   // Uploads what the scene holds and compiles the shaders: the start-up, apart from the frame.
   LinkedListsPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media);
 
-  // Draws one frame. Bytes: 36 a pixel for the G-buffer, 40 for the walk, 60 a translucent fragment, and
-  // those of the light lists and deep shadow maps. Throws Memory when a buffer would be over the device's
-  // limit.
+  // Draws one frame. Bytes: 40 a sample for the G-buffer, 32 a ray, 52 a translucent fragment, and those of
+  // the light lists and deep shadow maps. Throws Memory when a buffer would be over the device's limit.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality);
 
  private:

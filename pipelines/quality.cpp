@@ -11,7 +11,11 @@ const std::vector<std::string>& qualityNames() {
 
 Quality qualityNamed(const std::string& name) {
   if (name == "draft")
-    return {.shadowResolution = 512, .stepVoxels = 3.0, .shadowError = 1.0 / 128, .throughputCutoff = 1e-2};
+    return {.samples = 1,
+            .shadowResolution = 512,
+            .stepVoxels = 3.0,
+            .shadowError = 1.0 / 128,
+            .throughputCutoff = 1e-2};
   if (name == "medium")
     return {.shadowResolution = 1024, .stepVoxels = 1.5, .shadowError = 1.0 / 512, .throughputCutoff = 1e-3};
   if (name == "high")

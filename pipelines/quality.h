@@ -7,6 +7,7 @@
 namespace sfumato::pipelines {
 
 struct Quality {
+  int samples = 4;                    // of a pixel where edges cross it: 1, or 4
   int shadowResolution = 1024;        // texels a side of a deep shadow map
   double stepVoxels = 1.0;            // of every march through smoke, in voxels of the finest volume
   double shadowError = 1.0 / 512;     // bound of the error of a deep shadow map's transmittance

@@ -155,7 +155,7 @@ Camera framingCamera(const Bounds& bounds, double yfov, double aspect) {
   }
   distance = std::max(distance, 1e-6);
   Camera camera = lookAt(centre + back * distance, centre, yfov);
-  camera.nearDistance = std::min(camera.nearDistance, distance * 1e-3);
+  camera.nearDistance = distance * 1e-3;
   return camera;
 }
 

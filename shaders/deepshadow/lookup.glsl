@@ -81,9 +81,9 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, bool bilinear) {
 
 // Of a point on a surface with the plane normal `normal`: the four texels around it, each asked at the depth at
 // which the ray through its centre meets that plane, so that a flat surface neither shadows itself nor leaks,
-// whatever the angle and the resolution. Where another surface joins it in a corner, texels on that one lie before
-// the plane without shadowing the point: texels that tell nothing (before the plane, yet no nearer to the light than
-// the point by more than they are wide) are left out as long as others tell something.
+// whatever the angle and the resolution. What lies before the plane by less than a texel or two is where a texel
+// cannot tell: another surface that joins this one in a corner, or this one where it is curved. An opaque texel of
+// that kind is left out as long as others tell something; a translucent one is looked up that much earlier.
 vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal) {
   ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
   vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
@@ -92,7 +92,6 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
   float ownDepth = -p.z;
   vec2 place = (perspective ? p.xy / max(ownDepth, 1e-20) : p.xy) * face.projection.xy + face.projection.zw;
   float texelWidth = (perspective ? ownDepth : 1.0) / min(face.projection.x, face.projection.y);
-  float slack = 4.0 * texelWidth;
   float rounding = 1e-4 * abs(ownDepth) + 1e-3 * texelWidth;
   vec2 corner = floor(place - 0.5);
   vec2 weight = place - 0.5 - corner;
@@ -106,12 +105,14 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     // The plane dot(n, x) = dot(n, p), met by x = (xy depth, -depth) or x = (xy, -depth). Seen edge-on it is met far
     // away or nowhere; little light falls on it then, and the point's own depth will do.
     float depth = perspective ? dot(n, p) / dot(n, vec3(xy, -1.0)) : (dot(n.xy, xy) - dot(n, p)) / n.z;
-    depth = (abs(depth - ownDepth) < 16.0 * slack ? depth : ownDepth) - rounding;
+    if (!(abs(depth - ownDepth) < 64.0 * texelWidth)) depth = ownDepth;
+    float slack = texelWidth + 0.3 * abs(depth - ownDepth);
+    depth -= rounding;
     ShadowTexel texel = shadowTexel(texelNumber(face, ivec2(corner) + offset));
     if (depth <= texel.opaqueDepth) {
-      sum += share * runTransmittance(texel, depth);
+      sum += share * runTransmittance(texel, depth - slack);
       told += share;
-    } else if (ownDepth - slack > texel.opaqueDepth) {
+    } else if (min(depth, ownDepth) - slack > texel.opaqueDepth) {
       told += share;
     }
   }

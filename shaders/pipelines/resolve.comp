@@ -1,41 +1,39 @@
-// The frame's last pass: each pixel walks its sorted surfaces front to back, marches the smoke between them and up to
-// the opaque depth, and lights both through light lists and deep shadow maps. A pixel that has done much work keeps
+// The frame's last pass: each ray walks its sorted surfaces front to back, marches the smoke between them and up to
+// the opaque depth, and lights both through light lists and deep shadow maps. A ray that has done much work keeps
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many.
 #include "shaders/deepshadow/lookup.glsl"
 #include "shaders/lights/light_lists.glsl"
+#include "shaders/lists/links.glsl"
 #include "shaders/pipelines/brdf.glsl"
+#include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/resolve.h"
-#include "shaders/shared/view.h"
+#include "shaders/shared/linear_id.glsl"
 #ifdef SMOKE
 #include "shaders/volumes/media.glsl"
 #endif
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = UNIFORM_VIEW) uniform View {
   ViewParams view;
 };
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ResolveParams params;
 };
-layout(std430, binding = STORAGE_PIXELS) buffer Pixels {
-  PixelState pixels[];
+layout(std430, binding = STORAGE_RAYS) buffer Rays {
+  RayState rays[];
+};
+layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
+  uint pixelGroups[];
 };
 layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   ResolveCounters counters;
 };
-layout(std430, binding = STORAGE_LIST_HEADS) readonly buffer SurfaceHeads {
-  uint surfaceHeads[];
-};
-layout(std430, binding = STORAGE_LIST_LINKS) readonly buffer SurfaceLinks {
-  ListLink surfaceLinks[];
-};
 layout(std430, binding = STORAGE_LIST_PAYLOADS) readonly buffer SurfaceNodes {
   PackedSurface surfaceNodes[];
 };
-layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
-layout(binding = TEXTURE_SURFACE_0) uniform usampler2D opaqueSurface0;
-layout(binding = TEXTURE_SURFACE_1) uniform usampler2D opaqueSurface1;
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
+layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
+layout(binding = TEXTURE_SURFACE_1) uniform pixelUsampler opaqueSurface1;
 
 const float FINISHED = 3e38;
 const uint LIGHT_WALK_LIMIT = 6000u;  // keeps one point's lighting below the drivers' loop limit
@@ -176,26 +174,56 @@ float nextStep(float depth, float entry, float stride, float limit) {
   return to > depth ? to : limit;  // a stride below the rounding of the depth
 }
 
-void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (pixel.x >= view.size.x || pixel.y >= view.size.y) return;
-  uint number = uint(pixel.y * view.size.x + pixel.x);
-  bool first = params.options.x != 0;
-  float depth = first ? view.depthRange.x : pixels[number].depth;
-  if (depth >= FINISHED) return;
-  uint node = first ? surfaceHeads[number] : pixels[number].node;
-  vec3 radiance = first ? vec3(0.0) : vec3(pixels[number].radianceR, pixels[number].radianceG, pixels[number].radianceB);
-  vec3 throughput = first ? vec3(1.0) : vec3(pixels[number].throughputR, pixels[number].throughputG, pixels[number].throughputB);
+// Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
+struct RayPlace {
+  ivec2 pixel;
+  int number;  // of the sample
+  bool split;
+};
 
-  vec2 plane = ((vec2(pixel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
+RayPlace rayPlace(uint ray) {
+  uint pixels = uint(view.size.x * view.size.y);
+  uint pixel = ray;
+  int number = 0;
+  bool split = false;
+  if (ray < pixels) {
+    split = pixelGroups[ray] != 0u;
+  } else {
+    pixel = pixelGroups[pixels + (ray - pixels) / uint(SAMPLES - 1)];
+    number = 1 + int((ray - pixels) % uint(SAMPLES - 1));
+    split = true;
+  }
+  return RayPlace(ivec2(int(pixel) % view.size.x, int(pixel) / view.size.x), number, split);
+}
+
+void main() {
+  uint number = linearId();
+  if (number >= uint(params.options.w)) return;
+  bool first = params.options.x != 0;
+  float depth = first ? view.depthRange.x : rays[number].depth;
+  if (depth >= FINISHED) return;
+  RayPlace place = rayPlace(number);
+  uint node = first ? listHeads[place.pixel.y * view.size.x + place.pixel.x] : rays[number].node;
+  vec3 radiance = first ? vec3(0.0) : vec3(rays[number].radianceR, rays[number].radianceG, rays[number].radianceB);
+  vec3 throughput = first ? vec3(1.0) : vec3(rays[number].throughputR, rays[number].throughputG, rays[number].throughputB);
+
+  // Surfaces are told at the pixel's centre; a sample's ray meets their plane elsewhere.
+  vec2 centre = imagePlane(view, vec2(place.pixel) + 0.5);
+  vec2 plane = place.split ? imagePlane(view, vec2(place.pixel) + samplePosition(params, place.number)) : centre;
+  float opaque = texelFetch(opaqueDepth, place.pixel, place.number).r;
+  uvec4 opaqueWords = texelFetch(opaqueSurface0, place.pixel, place.number);
+  if (place.split && opaque < NOTHING_SEEN) {
+    vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(opaqueWords.y));
+    opaque = depthOnPlane(view, normal, centre, opaque, plane);
+  }
+  float rayEnd = min(opaque, view.depthRange.y);
+
   bool orthographic = view.halfExtent.z != 0.0;
   PixelRay ray;
   ray.origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
   ray.perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
   ray.towardsViewer = -normalize(ray.perDepth);
-  ray.cell = lightCell(pixel, view.size.x);
-  float opaque = texelFetch(opaqueDepth, pixel, 0).r;
-  float rayEnd = min(opaque, view.depthRange.y);
+  ray.cell = lightCell(place.pixel, view.size.x);
 
 #ifdef SMOKE
   float metresPerDepth = length(ray.perDepth);
@@ -207,7 +235,12 @@ void main() {
   while (walking && work < uint(RESOLVE_WORK_LIMIT)) {
     ++work;
     float nextSurface = rayEnd;
-    if (node != 0u) nextSurface = surfaceLinks[node].depth;
+    if (node != 0u) {
+      // Nodes stand before the farthest sample's opaque depth, not before that of each.
+      float nodeDepth = listLinks[node].depth;
+      if (nodeDepth < rayEnd) nextSurface = nodeDepth;
+      else node = 0u;
+    }
     bool atSurface = true;
 #ifdef SMOKE
     // Collect the next steps that hold smoke; empty ones cost no more than their density.
@@ -242,15 +275,17 @@ void main() {
 #endif
     if (atSurface && node != 0u) {
       PackedSurface stored = surfaceNodes[node];
-      radiance += throughput * shadeSurface(unpackSurface(stored), ray, nextSurface);
-      throughput *= surfacePass(stored);
+      if (!place.split || (stored.coverage >> place.number & 1u) != 0u) {
+        radiance += throughput * shadeSurface(unpackSurface(stored), ray, nextSurface);
+        throughput *= surfacePass(stored);
+      }
       depth = max(depth, nextSurface);
-      node = surfaceLinks[node].next;
+      node = listLinks[node].next;
     } else if (atSurface) {
       if (opaque < view.depthRange.y) {
-        uvec4 a = texelFetch(opaqueSurface0, pixel, 0);
-        uvec4 b = texelFetch(opaqueSurface1, pixel, 0);
-        PackedSurface stored = PackedSurface(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, 0u);
+        uvec4 more = texelFetch(opaqueSurface1, place.pixel, place.number);
+        PackedSurface stored = PackedSurface(opaqueWords.x, opaqueWords.y, opaqueWords.z, opaqueWords.w, more.x, more.y,
+                                             more.z, more.w, 0u, 0u);
         radiance += throughput * shadeSurface(unpackSurface(stored), ray, opaque);
       }
       walking = false;
@@ -258,6 +293,6 @@ void main() {
     if (maxComponent(throughput) < params.march.y) walking = false;
   }
   if (walking) atomicAdd(counters.unfinished, 1u);
-  pixels[number] = PixelState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
-                              throughput.b, node);
+  rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
+                          throughput.b, node);
 }

@@ -1,8 +1,10 @@
-// Translucent surfaces of the camera into the lists of its pixels: those before the opaque depth, and no others.
+// Translucent surfaces of the camera into the lists of its pixels: those before the opaque depth of any of the
+// pixel's SAMPLES, and no others.
 #include "shaders/lists/insert.glsl"
+#include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/scene/surface.glsl"
 
-layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer Payloads {
   PackedSurface payloads[];
 };
@@ -13,7 +15,9 @@ void main() {
   vec4 base = baseColour();
   // Derivatives are taken before the flow diverges.
   PackedSurface surface = packSurface(base);
-  if (base.a > 0.0 && depth < texelFetch(opaqueDepth, pixel, 0).r) {
+  float opaque = 0.0;
+  for (int i = 0; i < SAMPLES; ++i) opaque = max(opaque, texelFetch(opaqueDepth, pixel, i).r);
+  if (base.a > 0.0 && depth < opaque) {
     uint node = listAllocate();
     if (node != 0u) {
       payloads[node] = surface;

@@ -55,5 +55,6 @@ PackedSurface packSurface(vec4 base) {
   s.emissiveRg = packHalf2x16(min(emissive.rg, 65504.0));
   s.emissiveBPassR = packHalf2x16(vec2(min(emissive.b, 65504.0), pass.r));
   s.passGb = packHalf2x16(pass.gb);
+  s.coverage = uint(gl_SampleMaskIn[0]);
   return s;
 }

@@ -20,8 +20,9 @@
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
 #define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
 #define STORAGE_VOLUMES 13        // VolumeData[]
-#define STORAGE_PIXELS 14         // PixelState[]
+#define STORAGE_RAYS 14         // RayState[]
 #define STORAGE_COUNTERS 15       // the pass's own counters
+#define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
 
 // Texture units
 #define TEXTURE_BASE_COLOUR 0

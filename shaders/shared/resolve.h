@@ -3,8 +3,12 @@
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 
-// How far a pixel has come; kept between dispatches, as one may only do so much work.
-struct PixelState {
+// A ray is walked for every pixel, through its centre, or for every one of its samples where they differ. Rays 0 to
+// pixels - 1 are the pixels' (through sample 0 where split); then, for each group (a split pixel), one for each further
+// sample. pixelGroups[pixel] is 0 or the number of its group plus 1; pixelGroups[pixels + group] is the group's pixel.
+
+// How far a ray has come; kept between dispatches, as one may only do so much work.
+struct RayState {
   float radianceR;
   float radianceG;
   float radianceB;
@@ -16,17 +20,30 @@ struct PixelState {
 };
 
 struct ResolveParams {
-  vec4 march;    // x: step, m; y: throughput below which the rest is not looked at
-  ivec4 options; // x: 1 when this is the first dispatch; y: 1 when smoke looks shadows up bilinearly;
-                 // z: directional lights
+  vec4 march;      // x: step, m; y: throughput below which the rest is not looked at
+  ivec4 options;   // x: 1 when this is the first dispatch; y: 1 when smoke looks shadows up bilinearly;
+                   // z: directional lights; w: rays
+  vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
+  vec4 samples23;
 };
 
 struct ResolveCounters {
-  uint unfinished;  // pixels that need another dispatch
+  uint groups;      // pixels that are split, counted past the capacity
+  uint unfinished;  // rays that need another dispatch
   uint boundHit;    // walks of light lists that were cut (never silently)
 };
 
 SHARED_END
 
-// Loop iterations after which a pixel stops and waits for the next dispatch.
+#define NOTHING_SEEN 3e38
+#define MAX_SAMPLES 4
+
+// Loop iterations after which a ray stops and waits for the next dispatch.
 #define RESOLVE_WORK_LIMIT 20000
+
+#ifndef __cplusplus
+vec2 samplePosition(ResolveParams params, int number) {
+  vec4 two = number < 2 ? params.samples01 : params.samples23;
+  return (number & 1) == 0 ? two.xy : two.zw;
+}
+#endif

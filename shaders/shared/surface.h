@@ -1,4 +1,4 @@
-// A lit surface point, packed: two G-buffer textures hold the first eight words, a node of the camera's lists all nine.
+// A lit surface point, packed: two G-buffer textures hold the first eight words, a node of the camera's lists all of them.
 #pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
@@ -14,6 +14,7 @@ struct PackedSurface {
   uint emissiveRg;
   uint emissiveBPassR;     // t = 1 - a (1 - tau b): what is let through
   uint passGb;
+  uint coverage;  // bit n: sample n of the pixel is covered
 };
 
 SHARED_END

@@ -22,7 +22,8 @@ constexpr int width = 96;
 constexpr int height = 72;
 
 // Fine enough that what is left are the pixels at edges of shadows, where the map's texels show.
-const Quality fine{.shadowResolution = 1024,
+const Quality fine{.samples = 1,
+                   .shadowResolution = 1024,
                    .stepVoxels = 0.5,
                    .shadowError = 1.0 / 4096,
                    .throughputCutoff = 1e-6,
