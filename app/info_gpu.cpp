@@ -78,7 +78,7 @@ void print(const std::vector<gl::DeviceEntry>& devices, const gl::Device& used) 
 
 int info(const InfoOptions& options) {
   const auto devices = gl::listDevices();
-  const gl::Device used({.choice = options.common.device, .shaderDir = options.common.shaderDir});
+  const gl::Device used({.choice = options.device.device, .shaderDir = options.device.shaderDir});
   if (options.json)
     base::printResult(text(toJson(devices, used)));
   else

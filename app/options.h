@@ -2,24 +2,26 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sfumato::app {
 
-// In every command.
-struct CommonOptions {
+// In every command that uses GL.
+struct DeviceChoice {
   std::string device;  // see gl::DeviceOptions::choice
   std::string shaderDir;
 };
 
 struct RenderOptions {
-  CommonOptions common;
-  std::string scene;                 // .gltf or .glb
+  DeviceChoice device;
+  std::string commandLine;           // as typed, for the metadata
+  std::string scene;                 // .gltf or .glb; empty: the volumes get a default set
   std::vector<std::string> volumes;  // .vdb
   std::string grid;                  // of the volumes given by flags
-  double volumeScale = 1;
+  std::optional<double> volumeScale;
   glm::dvec3 volumeAlbedo{0.9};
   double volumeG = 0;
   std::vector<std::string> outputs;
@@ -33,19 +35,40 @@ struct RenderOptions {
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
+  bool reference = false;  // drawn by the CPU reference
+  int samples = 1;         // a side of the pixel, of the reference
   double exposureStops = 0;
   std::string statistics;  // path, empty: none
   int repeat = 1;          // frames; the last one is written
   bool dryRun = false;
 };
 
+// As in OpenImageIO's idiff: a comparison fails where more than `percent` of the pixels differ by more than
+// `threshold`, or one by more than `hard`.
+struct Tolerance {
+  double threshold = 1e-6;
+  double percent = 0;
+  double hard = std::numeric_limits<double>::infinity();
+};
+
+struct CompareOptions {
+  std::string commandLine;
+  std::string image;
+  std::string reference;
+  Tolerance fail;
+  Tolerance warn;
+  std::string heatMap;  // .png, empty: none
+  bool json = false;
+};
+
 struct InfoOptions {
-  CommonOptions common;
+  DeviceChoice device;
   bool json = false;
 };
 
 // Each runs its subcommand; the result is the program's exit code. Errors are thrown as base::Error.
 int render(const RenderOptions& options);
+int compare(const CompareOptions& options);
 int info(const InfoOptions& options);
 
 }  // namespace sfumato::app

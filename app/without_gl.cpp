@@ -1,13 +1,15 @@
-// Stands in for the subcommands that draw, in a build without OpenGL.
+// Stands in for what needs OpenGL, in a build without it.
 #ifndef SFUMATO_GL
 #include "app/options.h"
+#include "app/shot.h"
 #include "base/error.h"
 
 namespace sfumato::app {
 
-int render(const RenderOptions&) {
+Drawn drawOnGpu(const RenderOptions&, const Shot&, Clock::time_point) {
   base::fail(base::ExitCode::NoGl,
-             "render: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+             "render: this program was built without OpenGL: add --reference to draw on the CPU, or build it "
+             "with SFUMATO_GL=ON");
 }
 
 int info(const InfoOptions&) {

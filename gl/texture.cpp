@@ -114,11 +114,12 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
     if (mipmaps) glGenerateMipmap(target_);
   }
   if (target_ != GL_TEXTURE_2D_MULTISAMPLE) {
-  glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
-  glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, minify);
-  glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
-  glTexParameteri(target_, GL_TEXTURE_WRAP_T, wrapping(description.wrapT));
-  glTexParameteri(target_, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
+    glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, minify);
+    glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
+    glTexParameteri(target_, GL_TEXTURE_WRAP_T, wrapping(description.wrapT));
+    glTexParameteri(target_, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+  }
   if (mipmaps) bytes_ += bytes_ / 3;
   ledger_->add(label_, bytes_);
 }

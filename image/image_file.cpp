@@ -5,6 +5,8 @@
 #ifdef SFUMATO_OPENIMAGEIO
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include <cstring>
 
 #include "base/file.h"
+#include "image/metrics.h"
 #include "image/tone_map.h"
 
 namespace sfumato::image {
@@ -58,6 +61,7 @@ Ending endingOf(const fs::path& path) {
 void write(const fs::path& path, OIIO::ImageSpec spec, const Metadata& metadata, OIIO::TypeDesc type,
            const void* pixels) {
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
+  spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day: the same run, other bytes
   // Into memory first: OpenImageIO does not say when a disk is full.
   OIIO::Filesystem::IOVecOutput memory;
   OIIO::Filesystem::IOProxy* target = &memory;
@@ -80,16 +84,31 @@ void writeExr(const fs::path& path, const Image& image, const Metadata& metadata
   write(path, spec, metadata, OIIO::TypeDesc::FLOAT, values.data());
 }
 
-void writePng(const fs::path& path, const Image& image, const Metadata& metadata) {
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+OIIO::ImageSpec pngSpec(int width, int height, int channels) {
+  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);
+  return spec;
+}
+
+void writePng(const fs::path& path, const Image& image, const Metadata& metadata) {
   const Image screen = toneMap(image);
   std::vector<uint8_t> bytes(screen.values.size());
   std::transform(screen.values.begin(), screen.values.end(), bytes.begin(), [](float value) {
     return value > 0.f ? static_cast<uint8_t>(std::lround(std::min(value, 1.f) * 255.f)) : uint8_t{0};
   });
-  write(path, spec, metadata, OIIO::TypeDesc::UINT8, bytes.data());
+  write(path, pngSpec(image.width, image.height, image.channels), metadata, OIIO::TypeDesc::UINT8,
+        bytes.data());
+}
+
+// Red, green and blue; grey where there are fewer.
+OIIO::ImageBuf colourOf(const Image& image) {
+  OIIO::ImageBuf buffer(OIIO::ImageSpec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT));
+  auto* to = static_cast<float*>(buffer.localpixels());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c) *to++ = image.pixel(x, y)[image.channels < 3 ? 0 : c];
+  return buffer;
 }
 
 std::vector<uint8_t> expandToRgba(const std::vector<uint8_t>& stored, int channels) {
@@ -196,6 +215,23 @@ Picture decodePicture(std::span<const std::byte> bytes, const std::string& name)
   return {spec.width, spec.height, expandToRgba(stored, spec.nchannels)};
 }
 
+void checkPictureName(const fs::path& path) {
+  if (endingOf(path) != Ending::Png)
+    fail(ExitCode::Usage, "{}: is not the name of a picture: use .png", path.string());
+}
+
+void writePicture(const fs::path& path, const Picture& picture, const Metadata& metadata) {
+  checkPictureName(path);
+  write(path, pngSpec(picture.width, picture.height, 4), metadata, OIIO::TypeDesc::UINT8,
+        picture.rgba.data());
+}
+
+size_t perceptualFailures(const Image& image, const Image& reference) {
+  checkComparable(image, reference);
+  OIIO::ImageBufAlgo::CompareResults results;
+  return static_cast<size_t>(OIIO::ImageBufAlgo::compare_Yee(colourOf(image), colourOf(reference), results));
+}
+
 }  // namespace sfumato::image
 
 #else
@@ -225,6 +261,18 @@ void checkImageName(const std::filesystem::path& path) {
 
 Picture decodePicture(std::span<const std::byte>, const std::string& name) {
   failWithoutOpenImageIO(name);
+}
+
+void checkPictureName(const std::filesystem::path& path) {
+  failWithoutOpenImageIO(path.string());
+}
+
+void writePicture(const std::filesystem::path& path, const Picture&, const Metadata&) {
+  failWithoutOpenImageIO(path.string());
+}
+
+size_t perceptualFailures(const Image&, const Image&) {
+  failWithoutOpenImageIO("perceptual comparison");
 }
 
 }  // namespace sfumato::image

@@ -19,8 +19,9 @@ Image readImage(const std::filesystem::path& path);
 
 // Writes channels R, G, B (and A for four channels) of a linear image; the ending chooses: `.exr` (half
 // unless `fullFloat`, zip) holds it as it is, but what half cannot hold becomes +-65504; `.png` is
-// tone-mapped by toneMap() to 8-bit sRGB. Metadata become attributes. Beside, then renamed: a failure (Input)
-// leaves no file. Other endings are a Usage error.
+// tone-mapped by toneMap() to 8-bit sRGB. Metadata become attributes; nothing tells the time of day, so that
+// the same image makes the same bytes. Beside, then renamed: a failure (Input) leaves no file. Other endings
+// are a Usage error.
 void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                 bool fullFloat = false);
 
@@ -34,8 +35,19 @@ struct Picture {
   std::vector<uint8_t> rgba;
 };
 
+// Throws Usage unless writePicture knows the ending of `path`.
+void checkPictureName(const std::filesystem::path& path);
+
+// Writes a picture as an 8-bit `.png`, as it is. Throws as writeImage().
+void writePicture(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata);
+
 // Decodes a PNG or JPEG from memory; `name` stands in the error line. Throws Input when it is neither,
 // damaged, or wider or higher than 16384.
 Picture decodePicture(std::span<const std::byte> bytes, const std::string& name);
+
+// Pixels in which a viewer would see a difference, after Yee (2004), "A perceptual metric for production
+// testing", as OpenImageIO has it: 100 cd/m^2 for a value of 1, across 45 degrees. Of the first three
+// channels, or of the first one as grey. Throws as checkComparable().
+size_t perceptualFailures(const Image& image, const Image& reference);
 
 }  // namespace sfumato::image

@@ -59,6 +59,7 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--look-at", 3, {"1e400", "nan"}},
            {"--shadow-res", 1, {"31", "64.5", "1e3", "nan"}},
            {"--repeat", 1, {"0", "1001"}},
+           {"--samples", 1, {"0", "65", "1.5", "nan"}},
        }) {
     for (const std::string& text : row.wrong) {
       Arguments arguments = {"render", "a.gltf", row.option, text};
@@ -70,8 +71,8 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
 }
 
 TEST(CommandLine, ShowsHelpAndVersion) {
-  for (const Arguments& arguments :
-       std::vector<Arguments>{{"--help"}, {"-h"}, {"render", "--help"}, {"info", "--help"}}) {
+  for (const Arguments& arguments : std::vector<Arguments>{
+           {"--help"}, {"-h"}, {"render", "--help"}, {"compare", "--help"}, {"info", "--help"}}) {
     const Outcome outcome = runProgram(folder().path(), arguments);
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
@@ -104,7 +105,8 @@ TEST(CommandLine, SurvivesClosedStderr) {
 
 #ifndef SFUMATO_GL
 TEST(CommandLine, SaysThatItWasBuiltWithoutOpenGl) {
-  expectErrors(folder().path(), {{{"render", "a.gltf", "-o", "a.png"}, 4, "built without OpenGL"},
+  folder().write("empty.gltf", GltfBuilder().text());
+  expectErrors(folder().path(), {{{"render", "empty.gltf", "-q", "-o", "a.png"}, 4, "built without OpenGL"},
                                  {{"info"}, 4, "built without OpenGL"}});
 }
 #endif

@@ -83,6 +83,42 @@ TEST(Compare, ANanAnywhereShowsInEveryFigure) {
   }
 }
 
+TEST(Compare, SaysWhereTheMaximumIs) {
+  const Difference d = compare(make(2, 2, 2, {0, 0, 0, 0, 0, -3, 0, 3}), Image(2, 2, 2));
+  EXPECT_EQ(d.maximum, 3);
+  EXPECT_EQ(d.maximumAt.x, 0);
+  EXPECT_EQ(d.maximumAt.y, 1);
+  EXPECT_EQ(d.maximumAt.channel, 1);
+}
+
+TEST(Compare, PsnrIsOfTheLargestValue) {
+  EXPECT_NEAR(compare(make(1, 1, 1, {0.5f}), make(1, 1, 1, {0.4f})).psnr, 20, 1e-5);  // of 1
+  EXPECT_NEAR(compare(make(1, 1, 1, {10}), make(1, 1, 1, {9})).psnr, 20, 1e-9);
+  EXPECT_NEAR(compare(make(1, 1, 1, {9}), make(1, 1, 1, {10})).psnr, 20, 1e-9);
+  EXPECT_EQ(compare(make(1, 1, 1, {2}), make(1, 1, 1, {2})).psnr, INFINITY);
+}
+
+TEST(PixelsBeyond, CountsPixelsAndNotChannels) {
+  const Image image = make(3, 1, 2, {0, 0, 2, 2, 0, 1});
+  EXPECT_EQ(pixelsBeyond(image, Image(3, 1, 2), 0), 2u);
+  EXPECT_EQ(pixelsBeyond(image, Image(3, 1, 2), 1), 1u);
+  EXPECT_EQ(pixelsBeyond(image, Image(3, 1, 2), 2), 0u);
+  EXPECT_EQ(pixelsBeyond(image, Image(3, 1, 1), 0), 1u);
+  EXPECT_EQ(pixelsBeyond(make(1, 1, 1, {NAN}), Image(1, 1, 1), 1e9), 1u);
+  EXPECT_TRUE(isUsageError([] { pixelsBeyond(Image(2, 1, 1), Image(1, 2, 1), 0); }));
+  EXPECT_TRUE(isUsageError([] { pixelsBeyond(Image(), Image(), 0); }));
+}
+
+TEST(FindNotFinite, FindsTheFirst) {
+  EXPECT_EQ(findNotFinite(make(2, 1, 1, {-1, 65504})).count, 0u);
+  const NotFinite found = findNotFinite(make(2, 2, 2, {0, 0, 0, 0, 0, -INFINITY, NAN, 0}));
+  EXPECT_EQ(found.count, 2u);
+  EXPECT_EQ(found.value, -INFINITY);
+  EXPECT_EQ(found.first.x, 0);
+  EXPECT_EQ(found.first.y, 1);
+  EXPECT_EQ(found.first.channel, 1);
+}
+
 TEST(Compare, RefusesOtherSizes) {
   EXPECT_TRUE(isUsageError([] { compare(Image(2, 1, 1), Image(1, 2, 1)); }));
 }

@@ -1,0 +1,236 @@
+#include "app/commands.h"
+
+#include <memory>
+
+#include "app/validators.h"
+#include "base/version.h"
+#include "pipelines/quality.h"
+
+namespace sfumato::app {
+namespace {
+
+// Help that names what an option takes, and nothing else; ranges and defaults stand in the sentences.
+class Help : public CLI::Formatter {
+ public:
+  explicit Help(std::string usage) : usage_(std::move(usage)) {
+    label("Positionals", "Input");
+    column_width(28);
+  }
+  std::string make_usage(const CLI::App*, std::string name) const override {
+    return "Usage: " + name + " " + usage_ + "\n";
+  }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, name, mode), "\n\n\n", "\n\n");
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return option->get_type_size() == 0 || option->get_positional() ? "" : " " + option->get_type_name();
+  }
+
+ private:
+  std::string usage_;
+};
+
+// The flags of the program and of every command. They are added last, and stand last in the help.
+void addFlags(CLI::App& command, Verbosity& verbosity) {
+  command.add_flag("-v,--verbose", verbosity.verbose, "Say more")->group("General");
+  command.add_flag("-q,--quiet", verbosity.quiet, "Say only what is wrong")->group("General");
+  command.set_help_flag();
+  command.set_help_flag("-h,--help", "Show this and exit")->group("General");
+}
+
+void addDevice(CLI::App& command, DeviceChoice& choice) {
+  command
+      .add_option("--device", choice.device,
+                  "GL device: a number or part of a name in `sfumato info`, or `software`")
+      ->type_name("DEVICE")
+      ->group("General");
+  command
+      .add_option("--shader-dir", choice.shaderDir,
+                  "Shader files here stand in for the built-in ones of the same name")
+      ->type_name("FOLDER")
+      ->group("General")
+      ->check(folder());
+}
+
+// An option of three numbers into a glm::dvec3 or an optional one.
+template <typename Vector>
+CLI::Option* addVector(CLI::App& command, const char* name, const char* help, Vector& vector) {
+  const auto take = [&vector](const std::vector<double>& v) { vector = glm::dvec3(v[0], v[1], v[2]); };
+  return command.add_option_function<std::vector<double>>(name, take, help)->expected(3);
+}
+
+void addSmoke(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Smoke");
+  };
+  add("--volume", options.volumes, "Add this OpenVDB smoke; without SCENE it gets a set; may be given again")
+      ->type_name("FILE.vdb")
+      ->check(fileName())
+      ->allow_extra_args(false);
+  add("--grid", options.grid, "The grid to take from it; else \"density\", or the only one")
+      ->type_name("NAME");
+  add("--volume-scale", options.volumeScale,
+      "Its extinction per density, 1/m: 0 to 1e9, else 1, or alone what suits")
+      ->type_name("SCALE")
+      ->check(between(0.0, 1e9));
+  addVector(command, "--volume-albedo", "Its scattering albedo: each 0 to 1, else 0.9", options.volumeAlbedo)
+      ->type_name("R G B")
+      ->check(between(0.0, 1.0))
+      ->group("Smoke");
+  add("--volume-g", options.volumeG, "Its Henyey-Greenstein g: -0.99 to 0.99, else 0")
+      ->type_name("G")
+      ->check(between(-0.99, 0.99));
+}
+
+void addView(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("View");
+  };
+  const auto takeResolution = [&options](const std::string& text) {
+    const Resolution size = parseResolution(text).value();
+    options.width = size.width;
+    options.height = size.height;
+  };
+  command
+      .add_option_function<std::string>("--res", takeResolution,
+                                        "Image size: 1 to 16384 pixels a side, else 1280x720")
+      ->type_name("WxH")
+      ->check(resolution())
+      ->group("View");
+  add("--camera", options.camera, "Camera of the scene; else its first, or one that sees everything")
+      ->type_name("NAME");
+  add("--time", options.timeSeconds, "Pose the scene as its animations have it then; else at rest")
+      ->type_name("SECONDS")
+      ->check(coordinate());
+  addVector(command, "--look-from", "Stand here: metres", options.lookFrom)
+      ->type_name("X Y Z")
+      ->check(coordinate())
+      ->group("View");
+  addVector(command, "--look-at", "Look at this point: metres", options.lookAt)
+      ->type_name("X Y Z")
+      ->check(coordinate())
+      ->group("View");
+  add("--fov", options.fovDegrees, "Vertical field of view: 0.1 to 170")
+      ->type_name("DEGREES")
+      ->check(between(0.1, 170.0));
+}
+
+void addQuality(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Quality");
+  };
+  add("--quality", options.quality, "draft, medium, high or reference; else medium")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::qualityNames()));
+  add("--step", options.stepVoxels, "March through smoke in such steps: 0.01 to 100, else by --quality")
+      ->type_name("VOXELS")
+      ->check(between(0.01, 100.0));
+  add("--shadow-res", options.shadowResolution,
+      "Texels a side of a deep shadow map: 32 to 16384, else by --quality")
+      ->type_name("TEXELS")
+      ->check(wholeBetween(32, 16384));
+  CLI::Option* reference =
+      command
+          .add_flag("--reference", options.reference,
+                    "Draw on the CPU, by tracing rays in double precision: slow, needs no GL")
+          ->group("Quality");
+  add("--samples", options.samples, "Its samples a side of a pixel: 1 to 64, else 1")
+      ->type_name("COUNT")
+      ->check(wholeBetween(1, 64))
+      ->needs(reference);
+}
+
+void addOutput(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Output");
+  };
+  add("-o,--output", options.outputs,
+      "Image to write: .exr linear, .png tone-mapped sRGB; may be given again")
+      ->type_name("FILE")
+      ->check(fileName())
+      ->allow_extra_args(false);
+  add("--exposure", options.exposureStops, "Brighten the .png: -30 to 30, else 0")
+      ->type_name("STOPS")
+      ->check(between(-30.0, 30.0));
+  add("--stats", options.statistics, "Write times, bytes and list figures as JSON")
+      ->type_name("FILE.json")
+      ->check(fileName());
+  add("--repeat", options.repeat, "Draw so often, for the times: 1 to 1000, else 1; the last is written")
+      ->type_name("TIMES")
+      ->check(wholeBetween(1, 1000));
+  command
+      .add_flag("-n,--dry-run", options.dryRun, "Read all files, print the plan, write nothing; needs no GL")
+      ->group("Output");
+}
+
+void addTolerance(CLI::App& command, const std::string& what, Tolerance& tolerance) {
+  const auto add = [&](const std::string& name, double& value, const char* type, double high,
+                       const std::string& help) {
+    command.add_option(name, value, help)->type_name(type)->check(between(0.0, high))->group("Tolerances");
+  };
+  const std::string says = what == "fail" ? "Fail" : "Warn";
+  add("--" + what, tolerance.threshold, "VALUE", 1e30,
+      says + " where pixels differ by more, else 1e-6 (exit code " + (what == "fail" ? "1)" : "0)"));
+  add("--" + what + "percent", tolerance.percent, "PERCENT", 100,
+      "And where they are more than this of all pixels, else 0");
+  add("--hard" + what, tolerance.hard, "VALUE", 1e30, says + " where any pixel differs by more");
+}
+
+CLI::App& addCommand(CLI::App& program, const char* name, const char* help, const char* usage) {
+  CLI::App& command = *program.add_subcommand(name, help);
+  command.group("Commands");
+  command.formatter(std::make_shared<Help>(usage));
+  return command;
+}
+
+}  // namespace
+
+void addProgram(CLI::App& program, Verbosity& verbosity) {
+  program.formatter(std::make_shared<Help>("COMMAND [OPTIONS]"));
+  program.set_version_flag("--version", std::string("sfumato ") + base::version(), "Show it and exit")
+      ->group("General");
+  program.require_subcommand(0, 1);  // that there is one is checked after what is unknown
+  addFlags(program, verbosity);
+}
+
+CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbosity) {
+  CLI::App& command =
+      addCommand(program, "render", "Render a scene with smoke into images", "[SCENE] -o FILE [OPTIONS]");
+  command.add_option("SCENE", options.scene, ".gltf or .glb; its nodes may name smoke (extras \"volume\")")
+      ->check(fileName());
+  addSmoke(command, options);
+  addView(command, options);
+  addQuality(command, options);
+  addOutput(command, options);
+  addDevice(command, options.device);
+  addFlags(command, verbosity);
+  return command;
+}
+
+CLI::App& addCompare(CLI::App& program, CompareOptions& options, Verbosity& verbosity) {
+  CLI::App& command = addCommand(program, "compare", "Tell how far two images are apart", "A B [OPTIONS]");
+  command.add_option("A", options.image, "Image; one of N times B's size is averaged down to it")
+      ->required()
+      ->check(fileName());
+  command.add_option("B", options.reference, "What it should be")->required()->check(fileName());
+  addTolerance(command, "fail", options.fail);
+  addTolerance(command, "warn", options.warn);
+  command.add_option("--heat-map", options.heatMap, "Write the difference of each pixel as a colour")
+      ->type_name("FILE.png")
+      ->check(fileName())
+      ->group("Output");
+  command.add_flag("--json", options.json, "As JSON")->group("Output");
+  addFlags(command, verbosity);
+  return command;
+}
+
+CLI::App& addInfo(CLI::App& program, InfoOptions& options, Verbosity& verbosity) {
+  CLI::App& command = addCommand(
+      program, "info", "Show the GL devices, the one in use, and what its limits mean", "[OPTIONS]");
+  command.add_flag("--json", options.json, "As JSON")->group("General");
+  addDevice(command, options.device);
+  addFlags(command, verbosity);
+  return command;
+}
+
+}  // namespace sfumato::app

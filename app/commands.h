@@ -1,0 +1,22 @@
+// The command line of each subcommand: its options, their help, and where their values go.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/options.h"
+
+namespace sfumato::app {
+
+struct Verbosity {
+  bool verbose = false;
+  bool quiet = false;
+};
+
+// What stands before any subcommand. The arguments of all functions here must outlive the parsing.
+void addProgram(CLI::App& program, Verbosity& verbosity);
+
+CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbosity);
+CLI::App& addCompare(CLI::App& program, CompareOptions& options, Verbosity& verbosity);
+CLI::App& addInfo(CLI::App& program, InfoOptions& options, Verbosity& verbosity);
+
+}  // namespace sfumato::app

@@ -1,0 +1,275 @@
+// `sfumato render`: files to a scene, the scene to a frame, the frame to files.
+#include <fmt/format.h>
+#include <strings.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "app/json_text.h"
+#include "app/options.h"
+#include "app/shot.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "image/image_file.h"
+#include "pipelines/reference.h"
+#include "scene/camera_view.h"
+#include "scene/default_set.h"
+#include "scene/gltf.h"
+#include "scene/media.h"
+#include "scene/visible_hull.h"
+
+namespace sfumato::app {
+
+using base::ExitCode;
+using base::fail;
+
+namespace {
+
+double aspectOf(const RenderOptions& options) {
+  return static_cast<double>(options.width) / options.height;
+}
+
+double yfovOf(const RenderOptions& options) {
+  return glm::radians(options.fovDegrees.value_or(40));
+}
+
+void addVolumes(const RenderOptions& options, scene::Scene& scene) {
+  for (const std::string& file : options.volumes) {
+    scene::VolumePlacement volume;
+    volume.file = file;
+    volume.gridName = options.grid;
+    volume.scale = options.volumeScale.value_or(1);
+    volume.albedo = options.volumeAlbedo;
+    volume.g = options.volumeG;
+    scene.volumes.push_back(volume);
+  }
+}
+
+// Smoke without a scene: an extinction scale that shows it, and a set around it.
+void addDefaults(const RenderOptions& options, scene::Scene& scene, std::vector<volumes::Medium>& media) {
+  for (size_t i = 0; i < media.size() && !options.volumeScale; ++i) {
+    media[i].scale = scene.volumes[i].scale = scene::fittingScale(media[i]);
+    base::note("{}: --volume-scale {:.4g} chosen, for an optical depth of about {}", scene.volumes[i].file,
+               media[i].scale, scene::fittingOpticalDepth);
+  }
+  scene::addDefaultSet(scene, scene::boundsOf(media), yfovOf(options), aspectOf(options));
+}
+
+// Of all that is there.
+scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Medium>& media) {
+  std::vector<glm::dmat4> mediaBoxes;
+  for (const volumes::Medium& medium : media) mediaBoxes.push_back(volumes::worldFromUnit(medium));
+  return scene::boundsOf(scene::boundingPoints(scene, mediaBoxes));
+}
+
+// The camera that --camera names, the first one, or nothing.
+const scene::Camera* cameraOfScene(const RenderOptions& options, const scene::Scene& scene) {
+  if (options.camera.empty()) return scene.cameras.empty() ? nullptr : &scene.cameras.front();
+  std::vector<std::string> names;
+  for (const scene::Camera& camera : scene.cameras) {
+    if (camera.name == options.camera) return &camera;
+    names.push_back("\"" + camera.name + "\"");
+  }
+  fail(ExitCode::Usage, "--camera: no camera \"{}\" in {}: {}", options.camera, options.scene,
+       names.empty() ? "it has none, leave --camera out"
+                     : fmt::format("choose one of {}", fmt::join(names, ", ")));
+}
+
+scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& scene,
+                           const std::vector<volumes::Medium>& media) {
+  const double yfov = yfovOf(options);
+  const scene::Camera* chosen = cameraOfScene(options, scene);
+  scene::Camera camera =
+      chosen ? *chosen : scene::framingCamera(boundsOf(scene, media), yfov, aspectOf(options));
+  if (options.fovDegrees) {
+    camera.yfov = yfov;
+    camera.orthographic = false;
+  }
+  if (options.lookFrom || options.lookAt) {
+    const glm::dvec3 from = options.lookFrom.value_or(glm::dvec3(camera.worldFromView[3]));
+    const glm::dvec3 forward = -glm::dvec3(camera.worldFromView[2]);
+    const glm::dvec3 at = options.lookAt.value_or(from + forward);
+    if (glm::length(at - from) < 1e-9)
+      fail(ExitCode::Usage, "--look-at: is where the camera stands: choose two points");
+    camera.worldFromView = scene::lookAt(from, at, camera.yfov).worldFromView;
+  }
+  return camera;
+}
+
+pipelines::Quality chooseQuality(const RenderOptions& options) {
+  pipelines::Quality quality = pipelines::qualityNamed(options.quality);
+  if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
+  if (options.shadowResolution) quality.shadowResolution = *options.shadowResolution;
+  return quality;
+}
+
+image::Image exposed(image::Image image, double stops) {
+  const auto factor = static_cast<float>(std::exp2(stops));
+  for (float& value : image.values) value *= factor;
+  return image;
+}
+
+std::string numbers(const glm::dvec3& v) {
+  return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0);  // + 0.0: none is shown as -0
+}
+
+// Everything that makes the picture what it is, and nothing of when and where: the same run makes the same
+// file.
+image::Metadata metadata(const RenderOptions& options, const Shot& shot, const std::string& device) {
+  const scene::Camera& camera = shot.camera;
+  image::Metadata result = {{"Software", fmt::format("sfumato {}", base::version())},
+                            {"sfumato:device", device},
+                            {"sfumato:command_line", options.commandLine},
+                            {"sfumato:scene", options.scene.empty() ? "default set" : options.scene},
+                            {"sfumato:size", fmt::format("{}x{}", options.width, options.height)},
+                            {"sfumato:quality", options.quality},
+                            {"sfumato:step_voxels", fmt::format("{}", shot.quality.stepVoxels)},
+                            {"sfumato:exposure_stops", fmt::format("{}", options.exposureStops)},
+                            {"sfumato:camera_position", numbers(camera.worldFromView[3])},
+                            {"sfumato:camera_direction", numbers(-glm::dvec3(camera.worldFromView[2]))},
+                            {"sfumato:camera_up", numbers(camera.worldFromView[1])},
+                            camera.orthographic ? std::pair{std::string("sfumato:camera_height_metres"),
+                                                            fmt::format("{}", 2 * camera.yMagnitude)}
+                                                : std::pair{std::string("sfumato:camera_fov_degrees"),
+                                                            fmt::format("{}", glm::degrees(camera.yfov))}};
+  if (options.reference) {
+    result.emplace_back("sfumato:samples", fmt::format("{}", options.samples * options.samples));
+  } else {
+    result.emplace_back("sfumato:samples_at_edges", fmt::format("{}", shot.quality.samples));
+    result.emplace_back("sfumato:shadow_resolution", fmt::format("{}", shot.quality.shadowResolution));
+    result.emplace_back("sfumato:shadow_error", fmt::format("{}", shot.quality.shadowError));
+    result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
+  }
+  for (size_t i = 0; i < shot.media.size(); ++i)
+    result.emplace_back(fmt::format("sfumato:volume{}", i),
+                        fmt::format("{}: grid \"{}\", scale {}, albedo {}, g {}", shot.scene.volumes[i].file,
+                                    shot.media[i].grid.name, shot.media[i].scale,
+                                    numbers(shot.media[i].albedo), shot.media[i].g));
+  return result;
+}
+
+// Where a file is, whatever it is called.
+std::filesystem::path placeOf(const std::string& file) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+}
+
+// Every output is checked before the long work: it can be written, and is no other file of this run.
+void checkOutputs(const RenderOptions& options) {
+  if (options.outputs.empty() && !options.dryRun)
+    fail(ExitCode::Usage, "render: no output: name an image with -o, e.g. -o {}.png",
+         std::filesystem::path(options.scene.empty() ? options.volumes.front() : options.scene)
+             .stem()
+             .string());
+  std::vector<std::string> outputs = options.outputs;
+  for (const std::string& output : outputs) image::checkImageName(output);
+  if (!options.statistics.empty()) outputs.push_back(options.statistics);
+  std::set<std::filesystem::path> places = {placeOf(options.scene)};
+  for (const std::string& volume : options.volumes) places.insert(placeOf(volume));
+  for (const std::string& output : outputs) {
+    if (!places.insert(placeOf(output)).second)
+      fail(ExitCode::Usage, "{}: is named twice: give the output another name", output);
+    if (!options.dryRun) base::checkWritable(output);
+  }
+}
+
+std::string wayOfDrawing(const RenderOptions& options, const pipelines::Quality& quality) {
+  if (options.reference) return fmt::format("CPU reference, {0} x {0} samples a pixel", options.samples);
+  return fmt::format("{} samples at edges, shadow maps {} texels a side, error bound {:.5f}", quality.samples,
+                     quality.shadowResolution, quality.shadowError);
+}
+
+void printPlan(const RenderOptions& options, const Shot& shot) {
+  const scene::Scene& scene = shot.scene;
+  size_t triangles = 0;
+  for (const scene::Instance& instance : scene.instances)
+    triangles += scene.meshes[static_cast<size_t>(instance.mesh)].indices.size() / 3;
+  base::print("scene    {}: instances {}, triangles {}, materials {}, lights {}\n",
+              options.scene.empty() ? "default set" : options.scene, scene.instances.size(), triangles,
+              scene.materials.size(), scene.lights.size());
+  for (size_t i = 0; i < shot.media.size(); ++i) {
+    const volumes::DensityGrid& grid = shot.media[i].grid;
+    base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {:.1f} MiB\n", scene.volumes[i].file,
+                grid.name, grid.size.x, grid.size.y, grid.size.z,
+                static_cast<double>(grid.values.size() * sizeof(float)) / 0x1p20);
+  }
+  const scene::Camera* camera = cameraOfScene(options, scene);
+  base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
+  base::print("frame    {}x{}, quality {}: step {} voxels, {}\n", options.width, options.height,
+              options.quality, shot.quality.stepVoxels, wayOfDrawing(options, shot.quality));
+  for (const std::string& output : options.outputs) base::print("output   {}\n", output);
+  if (!options.statistics.empty()) base::print("output   {}\n", options.statistics);
+}
+
+void writeOutputs(const RenderOptions& options, const image::Image& radiance,
+                  const image::Metadata& settings) {
+  for (const std::string& output : options.outputs) {
+    const bool display = strcasecmp(std::filesystem::path(output).extension().c_str(), ".png") == 0;
+    image::writeImage(output, display ? exposed(radiance, options.exposureStops) : radiance, settings);
+    base::note("wrote {}", output);
+  }
+}
+
+// The frame by the CPU reference, --repeat times.
+Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_point start) {
+  Drawn drawn{.device = "CPU reference"};
+  const double startupSeconds = secondsSince(start);
+  std::vector<double> seconds;
+  for (int i = 0; i < options.repeat; ++i) {
+    const Clock::time_point frameStart = Clock::now();
+    drawn.radiance = pipelines::renderReference(shot.scene, shot.camera, shot.media,
+                                                {.width = options.width,
+                                                 .height = options.height,
+                                                 .samples = options.samples,
+                                                 .stepVoxels = shot.quality.stepVoxels,
+                                                 .shadowStepVoxels = shot.quality.stepVoxels,
+                                                 .showProgress = true});
+    seconds.push_back(secondsSince(frameStart));
+  }
+  base::note("frame: {:.2f} s", seconds.back());
+  drawn.statistics = text(nlohmann::json{{"device", drawn.device},
+                                         {"startup", {{"seconds", startupSeconds}}},
+                                         {"frame", {{"seconds", seconds}}}});
+  return drawn;
+}
+
+// Reads everything that is drawn.
+Shot makeShot(const RenderOptions& options) {
+  Shot shot;
+  if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
+  addVolumes(options, shot.scene);
+  shot.media = scene::readMedia(shot.scene);
+  if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
+  if (shot.scene.lights.empty())
+    base::warn("{}: no lights: the picture will be black but for what glows", options.scene);
+  shot.camera = chooseCamera(options, shot.scene, shot.media);
+  shot.quality = chooseQuality(options);
+  return shot;
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+  const Clock::time_point start = Clock::now();
+  if (options.scene.empty() && options.volumes.empty())
+    fail(ExitCode::Usage, "render: no scene: name a .gltf or .glb file, or smoke with --volume FILE.vdb");
+  checkOutputs(options);
+  const Shot shot = makeShot(options);
+  if (options.dryRun) {
+    printPlan(options, shot);
+    return 0;
+  }
+  const Drawn drawn =
+      options.reference ? drawReference(options, shot, start) : drawOnGpu(options, shot, start);
+  writeOutputs(options, drawn.radiance, metadata(options, shot, drawn.device));
+  if (!options.statistics.empty()) {
+    base::writeFile(options.statistics, drawn.statistics);
+    base::note("wrote {}", options.statistics);
+  }
+  return 0;
+}
+
+}  // namespace sfumato::app

@@ -1,0 +1,40 @@
+// What `sfumato render` draws, and what comes of it, whoever draws.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "image/image.h"
+#include "pipelines/quality.h"
+#include "scene/scene.h"
+#include "volumes/grid.h"
+
+namespace sfumato::app {
+
+using Clock = std::chrono::steady_clock;
+
+inline double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Shot {
+  scene::Scene scene;
+  std::vector<volumes::Medium> media;
+  scene::Camera camera;
+  pipelines::Quality quality;
+};
+
+struct Drawn {
+  image::Image radiance;
+  std::string device;      // who drew it, for the metadata
+  std::string statistics;  // JSON
+};
+
+// Opens the device and draws the frame --repeat times, the last one counts; `start` is when the program
+// started to work. In render_gpu.cpp; a build without OpenGL has another in without_gl.cpp, which throws
+// NoGl.
+Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_point start);
+
+}  // namespace sfumato::app
