@@ -83,7 +83,8 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, bool bilinear) {
 // which the ray through its centre meets that plane, so that a flat surface neither shadows itself nor leaks,
 // whatever the angle and the resolution. What lies before the plane by less than a texel or two is where a texel
 // cannot tell: another surface that joins this one in a corner, or this one where it is curved. An opaque texel of
-// that kind is left out as long as others tell something; a translucent one is looked up that much earlier.
+// that kind is left out as long as others tell something, and lit where none does; a translucent one is looked up that
+// much earlier.
 vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal) {
   ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
   vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
@@ -97,6 +98,7 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
   vec2 weight = place - 0.5 - corner;
   vec3 sum = vec3(0.0);
   float told = 0.0;
+  vec3 doubtful = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 offset = ivec2(i & 1, i >> 1);
     vec2 sides = mix(1.0 - weight, weight, vec2(offset));
@@ -109,12 +111,17 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     float slack = texelWidth + 0.3 * abs(depth - ownDepth);
     depth -= rounding;
     ShadowTexel texel = shadowTexel(texelNumber(face, ivec2(corner) + offset));
-    if (depth <= texel.opaqueDepth) {
-      sum += share * runTransmittance(texel, depth - slack);
+    if (min(depth, ownDepth) - slack > texel.opaqueDepth) {
       told += share;
-    } else if (min(depth, ownDepth) - slack > texel.opaqueDepth) {
-      told += share;
+    } else {
+      vec3 through = share * runTransmittance(texel, min(depth, texel.opaqueDepth) - slack);
+      if (depth <= texel.opaqueDepth) {
+        sum += through;
+        told += share;
+      } else {
+        doubtful += through;
+      }
     }
   }
-  return told > 0.0 ? sum / told : vec3(0.0);
+  return told > 0.0 ? sum / told : doubtful;
 }
