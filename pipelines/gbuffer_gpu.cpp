@@ -10,13 +10,13 @@ namespace sfumato::pipelines {
 GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   const glm::ivec3 size(inputs.width, inputs.height, 1);
   const int samples = inputs.samples > 1 ? inputs.samples : 0;  // one sample is an ordinary texture
-  GBuffer result{gl::Texture(device, "G-buffer surface 0",
-                             {.format = gl::Format::RGBA32UI, .size = size, .samples = samples}),
-                 gl::Texture(device, "G-buffer surface 1",
-                             {.format = gl::Format::RGBA32UI, .size = size, .samples = samples}),
-                 gl::Texture(device, "G-buffer depth",
-                             {.format = gl::Format::R32F, .size = size, .samples = samples}),
-                 {}};
+  GBuffer result{
+      gl::Texture(device, "G-buffer surface 0",
+                  {.format = gl::Format::RGBA32UI, .size = size, .samples = samples}),
+      gl::Texture(device, "G-buffer surface 1",
+                  {.format = gl::Format::RGBA32UI, .size = size, .samples = samples}),
+      gl::Texture(device, "G-buffer depth", {.format = gl::Format::R32F, .size = size, .samples = samples}),
+      {}};
   const gl::Texture depthTest(device, "depth test",
                               {.format = gl::Format::Depth32F, .size = size, .samples = samples});
   const gl::Texture* colours[] = {&result.surface0, &result.surface1, &result.depth};
@@ -26,11 +26,10 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   target.clearColour(2, glm::vec4(static_cast<float>(NOTHING_SEEN)));
   target.clearDepth(1.f);
   inputs.view.bindUniform(UNIFORM_VIEW);
-  gl::setDrawState(
-      {.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}),
-       .target = &target,
-       .viewport = {0, 0, inputs.width, inputs.height},
-       .depthTest = true});
+  gl::setDrawState({.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}),
+                    .target = &target,
+                    .viewport = {0, 0, inputs.width, inputs.height},
+                    .depthTest = true});
   inputs.geometry.draw(Layer::Opaque, true);
   result.samplePositions = target.samplePositions();
   // A driver may give more than were asked for; any of them will do.

@@ -15,8 +15,9 @@ namespace sfumato::scene {
 // metallic-roughness materials with KHR_materials_transmission, _specular, _ior (folded into the specular
 // colour) and _emissive_strength; KHR_mesh_quantization; PNG and JPEG pictures; and volumes: a node with
 // extras "volume" (path relative to the file), "volume_grid", "volume_scale", "volume_albedo" (three
-// numbers), "volume_g". A warning, once each: points and lines, animations, skins, morph targets and
-// extensions that are used but not required and not supported. These are left out.
+// numbers), "volume_g"; materials with extras "shadow_self", "shadow_once" (booleans) and "shadow_rim" (a
+// number, 0 or more): see Material. A warning, once each: points and lines, animations, skins, morph targets
+// and extensions that are used but not required and not supported. These are left out.
 //
 // What is guaranteed, so that no consumer needs a special case:
 // - every mesh has a material (the glTF default one is added last where a primitive names none), unit normals
