@@ -138,6 +138,9 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     ShadowTexel texel = shadowTexel(texelNumber(face, ivec2(corner) + offset));
     vec3 ownTau = takeOwnSteps(texel, depth, slack, object);
     if (depth <= texel.opaqueDepth) {
+      // At a grazing angle the plane is met far on the light's side of the point: with something else in between, the
+      // texel tells only where no other does.
+      if (texel.opaqueDepth > depth + 4.0 * rounding && texel.opaqueDepth < ownDepth - texelWidth) share *= 1e-6;
       sum += share * runTransmittance(texel, depth - slack, ownTau);
       told += share;
     } else if (min(depth, ownDepth) - slack > texel.opaqueDepth) {

@@ -212,15 +212,15 @@ KnownScene slideProjector() {
   Scene& scene = known.scene;
   add(scene, quad({-3, -2, -2}, {6, 0, 0}, {0, 4, 0}), lambert({0.9f, 0.9f, 0.9f}));
   Texture slide;
-  slide.width = slide.height = 8;
+  slide.width = slide.height = 4;
   slide.nearest = true;
   base::Random random(11);
-  for (int texel = 0; texel < 64; ++texel) {
-    for (int c = 0; c < 3; ++c) slide.rgba.push_back(static_cast<uint8_t>(random.uniform(20, 255)));
+  for (int texel = 0; texel < 16; ++texel) {
+    for (int c = 0; c < 3; ++c) slide.rgba.push_back(random.uniform() < 0.5 ? 0 : 255);
     slide.rgba.push_back(255);
   }
   scene.textures.push_back(slide);
-  Material film = pane({1, 1, 1});
+  Material film = pane({0.9f, 0.7f, 0.8f});
   film.baseColourTexture.texture = 0;
   add(scene, quad({-0.4f, -0.4f, 1}, {0.8f, 0, 0}, {0, 0.8f, 0}), film);
   scene.lights.push_back(spotLight({0, 0, 2}, {0, 0, 0}, {60, 60, 60}, 0.45, 0.5));
@@ -248,7 +248,7 @@ KnownScene lampInSmoke() {
   add(known.scene, quad({-4, 0, -2}, {8, 0, 0}, {0, 4, 0}), lambert({0.6f, 0.6f, 0.6f}));
   add(known.scene, box({0.5f, 1.2f, -0.2f}, {0.7f, 1.4f, 0.2f}), lambert({0.6f, 0.6f, 0.6f}));
   known.media = {ball({0, 1.2, 0}, 1.1, 32, 3, {0.9, 0.9, 0.9}, 0)};
-  known.scene.lights.push_back(pointLight({0.1, 1.1, 0}, {4, 4, 4}));
+  known.scene.lights.push_back(pointLight({0, 1, 0}, {4, 4, 4}));
   known.scene.cameras.push_back(perspectiveCamera({0, 1.6, 4.5}, {0, 1, 0}, 0.7));
   return known;
 }
@@ -267,13 +267,15 @@ KnownScene cameraInManyLights() {
   add(scene, box({-0.4f, 0, -0.4f}, {0.4f, 0.8f, 0.4f}), lambert({0.7f, 0.7f, 0.7f}));
   base::Random random(3);
   for (int i = 0; i < 60; ++i) {
-    const glm::dvec3 position(random.uniform(-3, 3), random.uniform(0.3, 1.8), random.uniform(-3, 3));
-    const glm::dvec3 colour(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    const auto between = [&](double low, double high) { return random.uniform(low, high); };
+    const glm::dvec3 position{between(-3, 3), between(0.3, 1.8), between(-3, 3)};
+    const glm::dvec3 colour{between(0, 1), between(0, 1), between(0, 1)};
     scene.lights.push_back(i % 3 == 2 ? spotLight(position, {0, 0, 0}, colour, 0.3, 0.6)
                                       : pointLight(position, colour * 0.5));
     scene.lights.back().range = random.uniform(1, 4);
   }
-  known.media = {ball({0, 1, 0}, 1.5, 12, 0.4, {0.9, 0.9, 0.9}, 0)};
+  // Beside a lamp in smoke no number of steps is enough: none is.
+  add(scene, quad({-1.2f, 0.2f, 0.5f}, {0.6f, 0, 0.2f}, {0, 0.7f, 0}), pane({0.5f, 0.8f, 0.9f}));
   scene.cameras.push_back(perspectiveCamera({1, 1.2, 1.4}, {-0.5, 0.2, -1}, 0.9));
   return known;
 }
@@ -326,9 +328,11 @@ KnownScene ballAtAngle(double elevation) {
   return known;
 }
 
-KnownScene insideOfClosedBox(const scene::Light& lightOutside) {
+KnownScene insideOfClosedBox(const scene::Light& lightOutside, float thickness) {
   KnownScene known{"inside of a closed box", {}, {}};
+  const float out = 1 + thickness;
   add(known.scene, box({-1, 0, -1}, {1, 2, 1}), lambert({1, 1, 1}));
+  if (thickness > 0) add(known.scene, box({-out, -thickness, -out}, {out, 1 + out, out}), lambert({1, 1, 1}));
   add(known.scene, box({-0.5f, 0, -0.5f}, {0, 0.5f, 0}), lambert({1, 1, 1}));
   known.scene.lights = {lightOutside};
   known.scene.cameras = {perspectiveCamera({0.8, 1.5, 0.9}, {-0.2, 0.4, -0.3}, 1.6)};

@@ -24,11 +24,12 @@ KnownScene lShape(bool shadowSelf);
 KnownScene flagsInSmoke();
 
 // Chapter 3.
-KnownScene curtainsBeforeLamp();      // figure 3.1 a: three fabrics around a point light
-KnownScene curtainUnderSpot();        // 3.1 b: the spot on the camera's side
-KnownScene rotatedCube();             // 3.2 a: a cube of smoke on its edge, lit from above
-KnownScene staircase();               // 3.2 b: three steps of smoke, lit from above
-KnownScene slideProjector();          // 3.5: a spot through a textured pane onto a wall
+KnownScene curtainsBeforeLamp();  // figure 3.1 a: three fabrics around a point light
+KnownScene curtainUnderSpot();    // 3.1 b: the spot on the camera's side
+KnownScene rotatedCube();         // 3.2 a: a cube of smoke on its edge, lit from above
+KnownScene staircase();           // 3.2 b: three steps of smoke, lit from above
+KnownScene slideProjector();      // 3.5: a spot through a textured pane onto a wall; its texels are 0 or 1,
+                                  // which every driver decodes exactly
 KnownScene smokeCrossedByGeometry();  // 3.7: columns stand in the smoke
 KnownScene lampInSmoke();             // 3.9: a point light inside the smoke
 KnownScene cameraInSmoke();
@@ -40,8 +41,9 @@ std::vector<KnownScene> thesisScenes();
 // Figure 3.8: a floor, or a ball on it, in a light `elevation` radians above the horizon.
 KnownScene floorAtAngle(double elevation);
 KnownScene ballAtAngle(double elevation);
-// A closed box with the camera inside and the light outside, and the other way round.
-KnownScene insideOfClosedBox(const scene::Light& lightOutside);
+// A closed box with walls of a thickness (metres, 0: single faces), the camera inside and the light outside,
+// and the other way round.
+KnownScene insideOfClosedBox(const scene::Light& lightOutside, float thickness);
 KnownScene outsideOfClosedBox();
 
 }  // namespace sfumato::tests
