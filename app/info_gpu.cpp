@@ -1,9 +1,11 @@
 // `sfumato info`: which GL devices there are, which one is used, and what its limits mean here.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
+#include "app/json_text.h"
 #include "app/options.h"
+#include "base/log.h"
 #include "gl/device.h"
 
 namespace sfumato::app {
@@ -26,13 +28,11 @@ std::vector<Fact> facts(const gl::Limits& limits) {
        fmt::format("a list pool holds up to {} million nodes of 12 bytes",
                    limits.storageBlockBytes / 12 / 1000000)},
       {"storage_bindings", limits.storageBindings, std::to_string(limits.storageBindings),
-       limits.storageBindings >= 16 ? "all passes fit (16 are used)" : "too few: 16 are used"},
+       fmt::format("the passes use {}", gl::storageBindingsUsed)},
       {"compute_storage_blocks", limits.computeStorageBlocks, std::to_string(limits.computeStorageBlocks),
-       limits.computeStorageBlocks >= 13 ? "the resolve fits (it uses 13)"
-                                         : "too few for the resolve, which uses 13"},
+       fmt::format("the resolve uses {}", gl::storageBlocksUsed)},
       {"fragment_storage_blocks", limits.fragmentStorageBlocks, std::to_string(limits.fragmentStorageBlocks),
-       limits.fragmentStorageBlocks >= 6 ? "lists can be built while rasterising (6 are used)"
-                                         : "too few: 6 are used"},
+       "lists are built while rasterising with 6"},
       {"texture_3d_size", limits.texture3dSize, std::to_string(limits.texture3dSize),
        fmt::format("volumes up to {} voxels a side", limits.texture3dSize)},
       {"texture_2d_size", limits.texture2dSize, std::to_string(limits.texture2dSize),
@@ -63,15 +63,15 @@ nlohmann::json toJson(const std::vector<gl::DeviceEntry>& devices, const gl::Dev
 }
 
 void print(const std::vector<gl::DeviceEntry>& devices, const gl::Device& used) {
-  fmt::print("GL devices (choose with --device N, part of a name, or software)\n");
+  base::print("GL devices (choose with --device N, part of a name, or software)\n");
   for (const gl::DeviceEntry& device : devices)
-    fmt::print("  {}  {:<12} {}\n", device.index, device.names.platform,
-               device.problem.empty() ? device.names.renderer : "not usable: " + device.problem);
-  fmt::print("\nIn use\n  {}, {}\n  OpenGL {}, through EGL {}\n\n", used.names().renderer,
-             used.names().vendor, used.names().version, used.names().platform);
-  fmt::print("Limits, and what they mean here\n");
+    base::print("  {}  {:<12} {}\n", device.index, device.names.platform,
+                device.problem.empty() ? device.names.renderer : "not usable: " + device.problem);
+  base::print("\nIn use\n  {}, {}\n  OpenGL {}, through EGL {}\n\n", used.names().renderer,
+              used.names().vendor, used.names().version, used.names().platform);
+  base::print("Limits, and what they mean here\n");
   for (const Fact& fact : facts(used.limits()))
-    fmt::print("  {:<24} {:>9}  {}\n", fact.name, fact.shown, fact.consequence);
+    base::print("  {:<24} {:>9}  {}\n", fact.name, fact.shown, fact.consequence);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ int info(const InfoOptions& options) {
   const auto devices = gl::listDevices();
   const gl::Device used({.choice = options.common.device, .shaderDir = options.common.shaderDir});
   if (options.json)
-    fmt::print("{}\n", toJson(devices, used).dump(2));
+    base::printResult(text(toJson(devices, used)));
   else
     print(devices, used);
   return 0;

@@ -1,6 +1,6 @@
 #include "app/statistics_gpu.h"
 
-#include <nlohmann/json.hpp>
+#include "app/json_text.h"
 
 namespace sfumato::app {
 namespace {
@@ -24,8 +24,8 @@ nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {
 
 }  // namespace
 
-nlohmann::json statisticsJson(gl::Device& device, const pipelines::FrameStatistics& statistics,
-                              const RunTimes& times) {
+std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics& statistics,
+                           const RunTimes& times) {
   nlohmann::json result;
   result["device"] = device.names().renderer;
   result["startup"] = {{"seconds", times.startupSeconds}, {"passes", toJson(times.startupPasses)}};
@@ -46,7 +46,7 @@ nlohmann::json statisticsJson(gl::Device& device, const pipelines::FrameStatisti
   }
   result["memory"] = {{"peak_bytes", device.memory().peakBytes()},
                       {"peak_bytes_by_label", device.memory().peakBytesByLabel()}};
-  return result;
+  return text(result);
 }
 
 }  // namespace sfumato::app

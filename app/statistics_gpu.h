@@ -1,7 +1,8 @@
 // The figures of a frame as JSON.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
 
 #include "gl/device.h"
 #include "pipelines/linked_lists_gpu.h"
@@ -15,7 +16,7 @@ struct RunTimes {
   std::vector<gl::PassTime> framePasses;  // of the last frame
 };
 
-nlohmann::json statisticsJson(gl::Device& device, const pipelines::FrameStatistics& statistics,
-                              const RunTimes& times);
+std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics& statistics,
+                           const RunTimes& times);
 
 }  // namespace sfumato::app

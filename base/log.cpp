@@ -3,6 +3,11 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstdio>
+
+#include "base/error.h"
+
 namespace sfumato::base {
 namespace {
 
@@ -14,6 +19,12 @@ spdlog::logger& logger() {
     return created;
   }();
   return *instance;
+}
+
+std::string oneLine(std::string text) {
+  const auto isControl = [](unsigned char c) { return c < ' ' || c == 127; };
+  std::replace_if(text.begin(), text.end(), isControl, '?');
+  return text;
 }
 
 }  // namespace
@@ -30,13 +41,22 @@ Verbosity verbosity() {
 }
 
 void logError(const std::string& line) {
-  logger().error(line);
+  logger().error(oneLine(line));
 }
 void logWarning(const std::string& line) {
-  logger().warn(line);
+  logger().warn(oneLine(line));
 }
 void logNote(const std::string& line) {
-  logger().info(line);
+  logger().info(oneLine(line));
+}
+
+void printResult(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+void flushResults() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    fail(ExitCode::Input, "standard output: cannot be written: see whether it is closed or its disk full");
 }
 
 }  // namespace sfumato::base

@@ -26,20 +26,19 @@ void Progress::advance(long steps) {
   const long percent = std::min(100L, done * 100 / total_);
   const std::lock_guard lock(mutex_);
   const long stride = terminal_ ? 1 : 10;
-  if (percent / stride <= shownPercent_ / stride && shownPercent_ >= 0) return;
+  if (percent / stride <= shownPercent_ / stride) return;
   show(percent);
   shownPercent_ = percent;
 }
 
 void Progress::show(long percent) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  if (terminal_) {
-    const std::string bar(static_cast<size_t>(percent / 4), '=');
-    fmt::print(stderr, "\r{} [{:<25}] {:3}% {:.1f} s", what_, bar, percent, seconds);
-    std::fflush(stderr);
-  } else if (percent > 0) {
-    fmt::print(stderr, "{}: {}% {:.1f} s\n", what_, percent, seconds);
-  }
+  const std::string bar(static_cast<size_t>(percent / 4), '=');
+  const std::string line = terminal_
+                               ? fmt::format("\r{} [{:<25}] {:3}% {:.1f} s", what_, bar, percent, seconds)
+                               : fmt::format("{}: {}% {:.1f} s\n", what_, percent, seconds);
+  std::fputs(line.c_str(), stderr);  // unlike fmt::print, it does not throw when stderr is closed
+  std::fflush(stderr);
 }
 
 }  // namespace sfumato::base

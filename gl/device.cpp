@@ -55,6 +55,7 @@ void requireLibraries() {
 
 std::vector<Candidate> candidates() {
   requireLibraries();
+  setenv("EGL_LOG_LEVEL", "fatal", 0);  // our line says what failed, without Mesa's before it
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> found;
   if (hasWord(extensions, "EGL_EXT_platform_device") &&
@@ -236,6 +237,12 @@ Device::Device(const DeviceOptions& options)
          answers.substr(1));
   }
   limits_ = readLimits();
+  if (limits_.storageBindings < storageBindingsUsed || limits_.computeStorageBlocks < storageBlocksUsed)
+    fail(ExitCode::NoGl,
+         "{}: {} storage bindings and {} storage blocks in a compute shader, {} and {} are needed: use "
+         "--device",
+         names_.renderer, limits_.storageBindings, limits_.computeStorageBlocks, storageBindingsUsed,
+         storageBlocksUsed);
   if (options.debug) {
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);

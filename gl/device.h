@@ -26,6 +26,10 @@ struct DeviceNames {
   bool software = false;
 };
 
+// What our passes need at once; a device with less is refused.
+constexpr int storageBindingsUsed = 17;  // shaders/shared/bindings.h counts them
+constexpr int storageBlocksUsed = 12;    // in one compute program, the resolve
+
 // The limits that matter here.
 struct Limits {
   int64_t storageBlockBytes = 0;  // one SSBO block

@@ -91,7 +91,7 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
   else
     glTexStorage2D(target_, levels, format.internal, size_.x, size_.y);
   if (glGetError() == GL_OUT_OF_MEMORY)
-    fail(ExitCode::Memory, "{}: the device has no room for {:.1f} MiB", label_,
+    fail(ExitCode::Memory, "{}: the device has no room for {:.1f} MiB: use a smaller one", label_,
          static_cast<double>(bytes_) / 0x1p20);
   if (!texels.empty()) {
     if (target_ == GL_TEXTURE_3D)

@@ -58,13 +58,16 @@ Ending endingOf(const fs::path& path) {
 void write(const fs::path& path, OIIO::ImageSpec spec, const Metadata& metadata, OIIO::TypeDesc type,
            const void* pixels) {
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  base::PendingFile pending(path);
-  const auto output = OIIO::ImageOutput::create(pending.temporary().string());
+  // Into memory first: OpenImageIO does not say when a disk is full.
+  OIIO::Filesystem::IOVecOutput memory;
+  OIIO::Filesystem::IOProxy* target = &memory;
+  spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &target);
+  const auto output = OIIO::ImageOutput::create(path.string());
   if (!output) fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(OIIO::geterror()));
-  const bool written = output->open(pending.temporary().string(), spec) && output->write_image(type, pixels);
+  const bool written = output->open(path.string(), spec) && output->write_image(type, pixels);
   if (!output->close() || !written)
     fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(output->geterror()));
-  pending.rename();
+  base::writeFile(path, {reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size()});
 }
 
 void writeExr(const fs::path& path, const Image& image, const Metadata& metadata, bool fullFloat) {

@@ -1,7 +1,6 @@
 #include "pipelines/linked_lists_gpu.h"
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
 #include "gl/commands.h"
@@ -21,13 +20,6 @@ namespace {
 
 // A dispatch does RESOLVE_WORK_LIMIT of a pixel's work; no sane frame needs this many.
 constexpr int maxResolveDispatches = 10000;
-
-// The medium's voxels as the image of the unit cube.
-glm::dmat4 worldFromUnit(const volumes::Medium& medium) {
-  const glm::dmat4 indexFromUnit = glm::translate(glm::dmat4(1.0), glm::dvec3(medium.grid.origin)) *
-                                   glm::scale(glm::dmat4(1.0), glm::dvec3(medium.grid.size - 1));
-  return medium.worldFromIndex * indexFromUnit;
-}
 
 std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
   std::vector<lights::ShadowFaces> faces;
@@ -187,7 +179,10 @@ ResolveOutputs resolve(gl::Device& device, const ResolveInputs& inputs) {
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
                                          std::span<const volumes::Medium> media)
     : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media) {
-  for (const volumes::Medium& medium : media) mediaBoxes_.push_back(worldFromUnit(medium));
+  for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
+  // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
+  const int samples = std::min(MAX_SAMPLES, device.limits().samples);
+  device.program({"pipelines/resolve.comp"}, resolveDefines(volumes_, static_cast<size_t>(samples)));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height,

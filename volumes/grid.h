@@ -33,6 +33,9 @@ struct Medium {
   double g = 0;
 };
 
+// The medium's box, from its first voxel to its last, as the image of the unit cube.
+glm::dmat4 worldFromUnit(const Medium& medium);
+
 // Length in metres of the shortest step between neighbouring voxels.
 double voxelSize(const glm::dmat4& worldFromIndex);
 

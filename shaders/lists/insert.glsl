@@ -46,16 +46,17 @@ void listInsert(uint cell, uint node, float depth, uint id, uint hint) {
         current = listLinks[current].next;
         ++walked;
       }
+      uint unlocked = head;
       if (walked < LIST_WALK_LIMIT) {
         listLinks[node].next = current;
         if (previous != 0u) listLinks[previous].next = node;
-        memoryBarrierBuffer();
-        atomicExchange(listHeads[cell], previous != 0u ? head : node);
+        else unlocked = node;
         placed = true;
       } else {
-        atomicExchange(listHeads[cell], head);
         abandoned = true;
       }
+      memoryBarrierBuffer();
+      atomicExchange(listHeads[cell], unlocked);
     }
     ++spins;
   }

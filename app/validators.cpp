@@ -1,0 +1,85 @@
+#include "app/validators.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+namespace sfumato::app {
+namespace {
+
+// The number that the whole text is.
+template <typename T>
+std::optional<T> parse(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+template <typename T>
+CLI::Validator inRange(const char* kind, T low, T high) {
+  const auto check = [=](const std::string& text) -> std::string {
+    const std::optional<T> value = parse<T>(text);
+    if (value && *value >= low && *value <= high) return {};
+    return fmt::format("\"{}\" is not a {} from {} to {}", text, kind, low, high);
+  };
+  return CLI::Validator(check, "");
+}
+
+}  // namespace
+
+CLI::Validator between(double low, double high) {
+  return inRange("number", low, high);
+}
+
+CLI::Validator wholeBetween(int low, int high) {
+  return inRange("whole number", low, high);
+}
+
+CLI::Validator coordinate() {
+  return between(-1e9, 1e9);
+}
+
+std::optional<Resolution> parseResolution(std::string_view text) {
+  const size_t cross = text.find('x');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto width = parse<int>(text.substr(0, cross));
+  const auto height = parse<int>(text.substr(cross + 1));
+  const auto fits = [](std::optional<int> side) { return side && *side >= 1 && *side <= 16384; };
+  if (!fits(width) || !fits(height)) return std::nullopt;
+  return Resolution{*width, *height};
+}
+
+CLI::Validator resolution() {
+  const auto check = [](const std::string& text) -> std::string {
+    if (parseResolution(text)) return {};
+    return fmt::format("\"{}\" is not WIDTHxHEIGHT with 1 to 16384 pixels a side, e.g. 1280x720", text);
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator oneOf(const std::vector<std::string>& names) {
+  const auto check = [names](const std::string& text) -> std::string {
+    if (std::find(names.begin(), names.end(), text) != names.end()) return {};
+    return fmt::format("\"{}\" is none of {}", text, fmt::join(names, ", "));
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator fileName() {
+  return CLI::Validator([](const std::string& text) { return text.empty() ? "\"\" is no file" : ""; }, "");
+}
+
+CLI::Validator folder() {
+  const auto check = [](const std::string& text) -> std::string {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(text, ignored)) return {};
+    return fmt::format("\"{}\" is not a folder", text);
+  };
+  return CLI::Validator(check, "");
+}
+
+}  // namespace sfumato::app

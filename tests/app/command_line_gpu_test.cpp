@@ -1,0 +1,507 @@
+// The program as a stranger meets it: bad input, bad surroundings, odd scenes, and what it leaves behind.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <set>
+
+#include "base/error.h"
+#include "image/image_file.h"
+#include "tests/app/program.h"
+#include "tests/gl/test_device.h"
+#include "volumes/vdb_file.h"
+
+namespace sfumato::test {
+namespace {
+
+// A glowing triangle (0,0,0) (1,0,0) (0,1,0), no camera, no light.
+GltfBuilder glowingTriangle() {
+  GltfBuilder gltf = triangle();
+  gltf.add("materials", {{"emissiveFactor", {1, 1, 1}}, {"doubleSided", true}});
+  gltf.json["meshes"][0]["primitives"][0]["material"] = 0;
+  return gltf;
+}
+
+void addCamera(GltfBuilder& gltf, const std::string& name) {
+  const int camera =
+      gltf.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}});
+  gltf.add("nodes", {{"camera", camera}, {"name", name}, {"translation", {0.3, 0.3, 2}}});
+}
+
+GltfBuilder wholeScene() {
+  GltfBuilder gltf = glowingTriangle();
+  addCamera(gltf, "front");
+  addCamera(gltf, "the other");
+  gltf.light({{"type", "point"}, {"intensity", 5}})["translation"] = {0.5, 0.5, 2};
+  return gltf;
+}
+
+std::string sceneWithVolume(const std::string& file) {
+  GltfBuilder gltf = wholeScene();
+  gltf.add("nodes", {{"extras", {{"volume", file}}}});
+  return gltf.text();
+}
+
+// Smoke in a cube of 0.8 m about (5, 5, 5).
+volumes::DensityGrid smoke() {
+  volumes::DensityGrid grid;
+  grid.name = "density";
+  grid.size = glm::ivec3(8);
+  grid.values.assign(512, 0.f);
+  for (int z = 1; z < 7; ++z)
+    for (int y = 1; y < 7; ++y)
+      for (int x = 1; x < 7; ++x) grid.values[grid.valueIndex(x, y, z)] = 10.f;
+  for (int axis = 0; axis < 3; ++axis) grid.worldFromIndex[axis][axis] = 0.1;
+  grid.worldFromIndex[3] = {4.65, 4.65, 4.65, 1};
+  return grid;
+}
+
+Arguments draft(Arguments arguments, const std::string& resolution = "64x48") {
+  arguments.insert(arguments.begin(), "render");
+  arguments.insert(arguments.end(), {"--res", resolution, "--quality", "draft"});
+  return arguments;
+}
+
+float sumOf(const image::Image& image) {
+  float sum = 0;
+  for (const float value : image.values) sum += value;
+  return sum;
+}
+
+// A folder with scene.gltf in it, in which the program runs.
+class CommandLineGpu : public testing::Test {
+ protected:
+  CommandLineGpu() { folder.write("scene.gltf", wholeScene().text()); }
+
+  Outcome run(const Arguments& arguments, const Surroundings& surroundings = {}) const {
+    return runProgram(folder.path(), arguments, surroundings);
+  }
+  // Renders, and expects that to go well.
+  void render(const Arguments& arguments, const std::string& resolution = "64x48",
+              const Surroundings& surroundings = {}) const {
+    const Outcome outcome = run(draft(arguments, resolution), surroundings);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+  }
+  std::filesystem::path path(const std::string& name) const { return folder.path() / name; }
+  image::Image picture(const std::string& name) const { return image::readImage(path(name)); }
+  // Names that are there now and were not `before`.
+  std::set<std::string> newNames(const std::map<std::string, std::string>& before) const {
+    std::set<std::string> names;
+    for (const auto& [name, content] : listing(folder.path()))
+      if (!before.contains(name)) names.insert(name);
+    return names;
+  }
+
+  TemporaryFolder folder{"command_line_gpu"};
+};
+
+// The same where a frame is drawn: skips without a device.
+class CommandLineRender : public CommandLineGpu {
+ protected:
+  void SetUp() override {
+    if (tests::testDevice() != nullptr) return;
+    const char* ci = std::getenv("CI");
+    if (ci != nullptr && std::string(ci) == "true") FAIL() << tests::whyNoDevice();
+    GTEST_SKIP() << tests::whyNoDevice();
+  }
+};
+
+// ---- bad input -------------------------------------------------------------------------------------------
+
+TEST_F(CommandLineGpu, NamesTheFileThatIsWrong) {
+  const std::string whole = wholeScene().text();
+  std::string lying = wholeScene().binary();
+  lying[8] = '\x7f';  // its length
+  std::string lyingChunk = wholeScene().binary();
+  lyingChunk[15] = '\x7f';  // 2 GiB of JSON
+  folder.write("cut.gltf", whole.substr(0, whole.size() / 2));
+  folder.write("empty.gltf", "");
+  folder.write("lying.glb", lying);
+  folder.write("lying_chunk.glb", lyingChunk);
+  folder.write("cut.glb", wholeScene().binary().substr(0, 100));
+  folder.write("garbage.vdb", "This is no smoke.");
+  folder.write("empty.vdb", "");
+  folder.write("missing_smoke.gltf", sceneWithVolume("missing.vdb"));
+  folder.write("garbage_smoke.gltf", sceneWithVolume("garbage.vdb"));
+  std::filesystem::create_directory(path("folder"));
+  std::filesystem::create_directory(path("folder.png"));
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+
+  const auto to = [](Arguments arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"-o", "out.png"});
+    return arguments;
+  };
+  expectErrors(
+      folder.path(),
+      {
+          {{"render"}, 2, "no scene"},
+          {{"render", "scene.gltf"}, 2, "no output"},
+          {to({"missing.gltf"}), 3, "missing.gltf: cannot be read"},
+          {to({"two\nlines.gltf"}), 3, "two?lines.gltf: cannot be read"},
+          {to({"folder"}), 3, "folder: is a folder"},
+          {to({"pipe"}), 3, "pipe: is a device or a pipe"},
+          {to({"cut.gltf"}), 3, "cut.gltf: "},
+          {to({"empty.gltf"}), 3, "empty.gltf: "},
+          {to({"lying.glb"}), 3, "lying.glb: is damaged"},
+          {to({"lying_chunk.glb"}), 3, "lying_chunk.glb: is damaged"},
+          {to({"cut.glb"}), 3, "cut.glb: is damaged"},
+          {to({"scene.gltf", "--volume", "missing.vdb"}), 3, "missing.vdb: cannot be read"},
+          {to({"scene.gltf", "--volume", "garbage.vdb"}), 3, "garbage.vdb: is not an OpenVDB file"},
+          {to({"scene.gltf", "--volume", "empty.vdb"}), 3, "empty.vdb: is empty"},
+          {to({"scene.gltf", "--volume", "folder"}), 3, "folder: is a folder"},
+          {to({"scene.gltf", "--volume", "pipe"}), 3, "pipe: is a device or a pipe"},
+          {to({"missing_smoke.gltf"}), 3, "missing.vdb: cannot be read"},
+          {to({"garbage_smoke.gltf"}), 3, "garbage.vdb: is not an OpenVDB file"},
+          {{"render", "scene.gltf", "-o", "nowhere/out.png"}, 3, "nowhere/out.png: cannot be written"},
+          {{"render", "scene.gltf", "-o", "/proc/out.png"}, 3, "/proc/out.png: cannot be written"},
+          {{"render", "scene.gltf", "-o", "folder.png"}, 3, "folder.png: is a folder"},
+          {{"render", "scene.gltf", "-o", "out.tga"}, 2, "out.tga: unknown image ending"},
+          {{"render", "scene.gltf", "-o", "out"}, 2, "out: unknown image ending"},
+          {to({"scene.gltf", "-o", "out.tga"}), 2, "out.tga: unknown image ending"},
+          {to({"scene.gltf", "--stats", "folder"}), 3, "folder: is a folder"},
+          {to({"scene.gltf", "--stats", "nowhere/s.json"}), 3, "nowhere/s.json: cannot be written"},
+          {to({"scene.gltf", "-o", "./out.png"}), 2, "out.png: is named twice"},
+          {to({"scene.gltf", "--stats", "folder/../out.png"}), 2, "out.png: is named twice"},
+          {to({"scene.gltf", "--stats", "scene.gltf"}), 2, "scene.gltf: is named twice"},
+          {to({"scene.gltf", "--volume", "empty.vdb", "--stats", "empty.vdb"}), 2, "is named twice"},
+          {to({"scene.gltf", "--camera", "back"}), 2,
+           "no camera \"back\" in scene.gltf: choose one of \"front\", \"the other\""},
+          {to({"scene.gltf", "--look-from", "1", "2", "3", "--look-at", "1", "2", "3"}), 2,
+           "--look-at: is where"},
+      });
+}
+
+TEST_F(CommandLineGpu, NamesTheSmokeThatIsWrong) {
+  try {
+    volumes::writeVdb(path("smoke.vdb"), smoke());
+  } catch (const base::Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const std::string whole = contentOf(path("smoke.vdb"));
+  folder.write("cut.vdb", whole.substr(0, whole.size() * 3 / 4));
+  folder.write("cut_smoke.gltf", sceneWithVolume("cut.vdb"));
+  expectErrors(folder.path(),
+               {
+                   {{"render", "scene.gltf", "-o", "out.png", "--volume", "cut.vdb"}, 3, "cut.vdb: "},
+                   {{"render", "cut_smoke.gltf", "-o", "out.png"}, 3, "cut.vdb: "},
+                   {{"render", "scene.gltf", "-o", "out.png", "--volume", "smoke.vdb", "--grid", "heat"},
+                    3,
+                    "smoke.vdb: no "},
+               });
+}
+
+// ---- bad surroundings ------------------------------------------------------------------------------------
+
+// libEGL finds no driver to ask, whatever is installed.
+const Surroundings noEgl{.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}};
+
+TEST_F(CommandLineGpu, SaysThatThereIsNoOpenGl) {
+  const auto before = listing(folder.path());
+  expectError(run(draft({"scene.gltf", "-o", "out.png"}), noEgl), 4, "no usable OpenGL 4.3");
+  expectError(run({"info"}, noEgl), 4, "no usable OpenGL 4.3");
+  expectError(run({"info", "--json"}, noEgl), 4, "no usable OpenGL 4.3");
+  EXPECT_EQ(listing(folder.path()), before);
+}
+
+TEST_F(CommandLineRender, SaysThatTheDriverIsTooOldOrMissing) {
+  const gl::DeviceNames& names = tests::testDevice()->names();
+  if (names.version.find("Mesa") == std::string::npos)
+    GTEST_SKIP() << "only Mesa's drivers can be made older, this one is " << names.renderer;
+  const Arguments call = draft({"scene.gltf", "-o", "out.png"});
+  for (const char* older : {"GALLIUM_DRIVER=softpipe", "MESA_GL_VERSION_OVERRIDE=3.3"})
+    expectError(run(call, {.environment = {older}}), 4, "no OpenGL 4.3 core context");
+  EXPECT_FALSE(std::filesystem::exists(path("out.png")));
+  const Outcome missing = run(call, {.environment = {"LIBGL_DRIVERS_PATH=/nonexistent"}});
+  if (missing.exitCode != 0)  // Mesa from 24.3 on finds its drivers elsewhere
+    expectError(missing, 4, "eglInitialize failed");
+}
+
+TEST_F(CommandLineRender, SaysWhichDevicesThereAre) {
+  for (const char* choice : {"99", "no such name"}) {
+    const std::string renderer = tests::testDevice()->names().renderer;
+    expectError(run(draft({"scene.gltf", "-o", "out.png", "--device", choice})), 4, renderer);
+    expectError(run({"info", "--device", choice}), 4, renderer);
+  }
+}
+
+TEST_F(CommandLineRender, DrawsAHugeImageOrSaysWhyNot) {
+  const auto before = listing(folder.path());
+  const Outcome outcome = run(draft({"scene.gltf", "-q", "-o", "out.exr"}, "16384x16384"));
+  if (outcome.exitCode == 0) return;
+  expectError(outcome, 5, "MiB");
+  EXPECT_EQ(listing(folder.path()), before);
+}
+
+TEST_F(CommandLineRender, LeavesNothingOnAFullDisk) {
+  struct Row {
+    std::string name;
+    Arguments outputs;
+    rlim_t room;  // bytes of the largest file: in the last row the picture fits and the figures do not
+  };
+  for (const Row& row : std::vector<Row>{{"out.png", {"-o", "out.png"}, 100},
+                                         {"out.exr", {"-o", "out.exr"}, 100},
+                                         {"out.json", {"-o", "fits.png", "--stats", "out.json"}, 2000}}) {
+    SCOPED_TRACE(row.name);
+    const auto before = listing(folder.path());
+    const auto fillDisk = [&] {
+      std::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{row.room, row.room};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    };
+    Arguments arguments = draft({"scene.gltf", "-q"});
+    arguments.insert(arguments.end(), row.outputs.begin(), row.outputs.end());
+    expectError(run(arguments, {.inChild = fillDisk}), 3, row.name + ": cannot be written");
+    std::set<std::string> left = newNames(before);
+    left.erase("fits.png");
+    EXPECT_EQ(left, std::set<std::string>());
+  }
+}
+
+TEST_F(CommandLineRender, WritesIntoAPipeAndLeavesItOne) {
+  ASSERT_EQ(mkfifo(path("figures").c_str(), 0600), 0);
+  const int pipe = open(path("figures").c_str(), O_RDWR | O_NONBLOCK);  // a reader that waits for nobody
+  ASSERT_GE(pipe, 0);
+  render({"scene.gltf", "-o", "out.png", "--stats", "figures"});
+  std::string text(1 << 16, '\0');
+  const ssize_t count = read(pipe, text.data(), text.size());
+  close(pipe);
+  ASSERT_GT(count, 0);
+  EXPECT_TRUE(Json::accept(text.substr(0, static_cast<size_t>(count))));
+  EXPECT_TRUE(std::filesystem::is_fifo(path("figures")));
+
+  const Outcome outcome = run(draft({"scene.gltf", "-q", "-o", "out.png", "--stats", "/proc/self/fd/1"}));
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_TRUE(Json::accept(outcome.out)) << outcome.out;
+}
+
+TEST_F(CommandLineRender, WritesWhereALinkPoints) {
+  std::filesystem::create_directory(path("elsewhere"));
+  std::filesystem::create_symlink("elsewhere/real.png", path("link.png"));
+  for (int i = 0; i < 2; ++i) {  // first the file is not there yet
+    render({"scene.gltf", "-o", "link.png"});
+    EXPECT_TRUE(std::filesystem::is_symlink(path("link.png")));
+    EXPECT_EQ(picture("elsewhere/real.png").width, 64);
+  }
+}
+
+TEST_F(CommandLineRender, KeepsItsMessagesOutOfItsFiles) {
+  render({"scene.gltf", "-v", "-o", "plain.exr"});
+  const auto closeAll = [] {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) close(stream);
+  };
+  const auto fullStderr = [] { dup2(open("/dev/full", O_WRONLY), STDERR_FILENO); };
+  render({"scene.gltf", "-v", "-o", "closed.exr"}, "64x48", {.inChild = closeAll});
+  render({"scene.gltf", "-v", "-o", "full.exr"}, "64x48", {.inChild = fullStderr});
+  for (const char* name : {"closed.exr", "full.exr"}) {  // their dates may differ, so bytes are not compared
+    EXPECT_EQ(picture(name).values, picture("plain.exr").values);
+    EXPECT_EQ(contentOf(path(name)).size(), contentOf(path("plain.exr")).size());
+  }
+}
+
+// ---- odd scenes ------------------------------------------------------------------------------------------
+
+TEST_F(CommandLineRender, DrawsScenesThatLackSomething) {
+  GltfBuilder noLights = glowingTriangle();
+  addCamera(noLights, "front");
+  GltfBuilder noMeshes;
+  addCamera(noMeshes, "front");
+  noMeshes.light({{"type", "point"}});
+  GltfBuilder nothing;
+  nothing.json["scenes"] = Json::array({Json::object()});
+  nothing.json["scene"] = 0;
+  struct Row {
+    std::string name;
+    std::string text;
+    bool warns;
+    bool black;
+  };
+  for (const Row& row : std::vector<Row>{{"no lights", noLights.text(), true, false},
+                                         {"no meshes", noMeshes.text(), false, true},
+                                         {"nothing", nothing.text(), true, true},
+                                         {"nothing at all", GltfBuilder().text(), true, true}}) {
+    SCOPED_TRACE(row.name);
+    folder.write("odd.gltf", row.text);
+    const Outcome outcome = run(draft({"odd.gltf", "-o", "out.exr"}));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("sfumato: warning: odd.gltf: no lights") != std::string::npos, row.warns)
+        << outcome.err;
+    EXPECT_EQ(sumOf(picture("out.exr")) == 0, row.black);
+  }
+}
+
+// Whether the picture has light, and none at its border.
+bool standsInside(const image::Image& image) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const bool border = x == 0 || y == 0 || x == image.width - 1 || y == image.height - 1;
+      if (border && image.pixel(x, y)[0] > 0) return false;
+    }
+  return sumOf(image) > 0;
+}
+
+TEST_F(CommandLineRender, FramesEverythingWithoutACamera) {
+  for (const double scale : {1.0, 1e-4, 1e5}) {
+    GltfBuilder gltf = glowingTriangle();
+    gltf.json["nodes"][0]["scale"] = {scale, scale, scale};
+    folder.write("unframed.gltf", gltf.text());
+    for (const char* resolution : {"64x48", "96x24", "24x96"}) {
+      render({"unframed.gltf", "-o", "out.exr"}, resolution);
+      EXPECT_TRUE(standsInside(picture("out.exr"))) << scale << " " << resolution;
+    }
+  }
+}
+
+TEST_F(CommandLineRender, FramesSmokeWithoutACamera) {
+  try {
+    volumes::writeVdb(path("smoke.vdb"), smoke());
+  } catch (const base::Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  GltfBuilder gltf;
+  gltf.light({{"type", "point"}, {"intensity", 20}})["translation"] = {5, 7, 7};
+  folder.write("only_light.gltf", gltf.text());
+  render({"only_light.gltf", "--volume", "smoke.vdb", "-o", "out.exr"});
+  EXPECT_TRUE(standsInside(picture("out.exr")));
+}
+
+// ---- what it writes --------------------------------------------------------------------------------------
+
+TEST_F(CommandLineRender, WritesEveryOutputAndNothingElse) {
+  folder.write("Größe – 煙.gltf", wholeScene().text());
+  std::filesystem::create_directory(path("ein Ordner"));
+  const auto before = listing(folder.path());
+  const Outcome outcome = run(draft({"Größe – 煙.gltf", "-q", "-o", "ein Ordner/煙 1.exr", "-o",
+                                     "ein Ordner/煙 1.png", "--stats", "ein Ordner/Zahlen.json"}));
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  EXPECT_EQ(newNames(before),
+            (std::set<std::string>{"ein Ordner/煙 1.exr", "ein Ordner/煙 1.png", "ein Ordner/Zahlen.json"}));
+  for (const char* name : {"ein Ordner/煙 1.exr", "ein Ordner/煙 1.png"}) {
+    EXPECT_EQ(picture(name).width, 64);
+    EXPECT_EQ(picture(name).height, 48);
+    EXPECT_GT(sumOf(picture(name)), 0);
+  }
+}
+
+TEST_F(CommandLineRender, DrawsOnePixel) {
+  render({"scene.gltf", "-o", "out.exr", "-o", "out.png"}, "1x1");
+  EXPECT_EQ(picture("out.exr").values.size(), 3u);
+  EXPECT_GT(sumOf(picture("out.exr")), 0);
+}
+
+TEST_F(CommandLineRender, ExposesPicturesAndNotRadiance) {
+  render({"scene.gltf", "-o", "a.exr", "-o", "a.PNG"});
+  render({"scene.gltf", "-o", "b.exr", "-o", "b.PNG", "--exposure", "-3"});
+  EXPECT_EQ(picture("b.exr").values, picture("a.exr").values);
+  EXPECT_LT(sumOf(picture("b.PNG")), sumOf(picture("a.PNG")));
+}
+
+TEST_F(CommandLineRender, TakesTheCameraThatIsNamed) {
+  GltfBuilder gltf = wholeScene();
+  for (Json& node : gltf.json["nodes"])
+    if (node.value("name", "") == "the other") node["translation"] = {0.3, 0.3, 200};
+  folder.write("two.gltf", gltf.text());
+  render({"two.gltf", "-o", "near.exr"});
+  render({"two.gltf", "-o", "far.exr", "--camera", "the other"});
+  render({"two.gltf", "-o", "moved.exr", "--camera", "the other", "--look-from", "0.3", "0.3", "2"});
+  EXPECT_LT(sumOf(picture("far.exr")), 0.1 * sumOf(picture("near.exr")));
+  EXPECT_EQ(picture("moved.exr").values, picture("near.exr").values);
+}
+
+TEST_F(CommandLineRender, ReportsProgressOnStderr) {
+  const Outcome outcome = run(draft({"scene.gltf", "-o", "out.png", "--repeat", "20"}, "8x8"));
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.out, "");
+  const std::vector<std::string> shown = lines(outcome.err);
+  ASSERT_EQ(shown.size(), 10u) << outcome.err;
+  for (size_t i = 0; i < 10; ++i)
+    EXPECT_TRUE(shown[i].starts_with("rendering: " + std::to_string(10 * (i + 1)) + "% ")) << shown[i];
+
+  const Outcome bar = run(draft({"scene.gltf", "-o", "out.png"}, "8x8"), {.terminal = true});
+  EXPECT_NE(bar.err.find("\rrendering [=========================] 100% "), std::string::npos) << bar.err;
+  EXPECT_TRUE(bar.err.ends_with("s\r\n")) << bar.err;
+}
+
+TEST_F(CommandLineRender, WritesFigures) {
+  render({"scene.gltf", "-o", "out.png", "--stats", "out.json", "--repeat", "2"});
+  const Json figures = Json::parse(contentOf(path("out.json")));
+  EXPECT_EQ(figures["device"], tests::testDevice()->names().renderer);
+  EXPECT_GT(figures["startup"]["seconds"], 0);
+  EXPECT_EQ(figures["frame"]["seconds"].size(), 2u);
+  EXPECT_EQ(figures["frame"]["triangles"], 1);
+  EXPECT_EQ(figures["frame"]["cut_walks"], 0);
+  ASSERT_FALSE(figures["frame"]["passes"].empty());
+  for (const Json& pass : figures["frame"]["passes"]) {
+    EXPECT_TRUE(pass["pass"].is_string());
+    EXPECT_TRUE(pass["gpu_ms"].is_number());
+    EXPECT_GT(pass["wall_ms"], 0) << pass;
+    EXPECT_GE(pass["calls"], 1);
+  }
+  EXPECT_EQ(figures["lists"]["surfaces"]["cells"], 64 * 48);
+  EXPECT_EQ(figures["lists"]["lights"]["cells"], 16 * 12);
+  EXPECT_EQ(figures["lists"]["shadows"].size(), 1u);
+  EXPECT_GT(figures["memory"]["peak_bytes"], 64 * 48 * 36);
+}
+
+TEST_F(CommandLineGpu, PlansWithoutOpenGl) {
+  const auto before = listing(folder.path());
+  const Outcome outcome = run(draft({"scene.gltf", "-n", "-o", "out.png", "--stats", "out.json"}), noEgl);
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.err, "");
+  for (const char* part :
+       {"scene    scene.gltf: instances 1, triangles 1, materials 1, lights 1\n", "camera   \"front\"\n",
+        "64x48", "quality draft", "output   out.png\n", "output   out.json\n"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
+  EXPECT_EQ(listing(folder.path()), before);
+}
+
+TEST_F(CommandLineGpu, PlansWithTheSmokeThatIsThere) {
+  try {
+    volumes::writeVdb(path("smoke.vdb"), smoke());
+  } catch (const base::Error& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const Outcome outcome = run({"render", "scene.gltf", "-n", "--volume", "smoke.vdb"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("volume   smoke.vdb: grid \"density\", 8 x 8 x 8 voxels"), std::string::npos)
+      << outcome.out;
+  expectError(run({"render", "scene.gltf", "-n", "--volume", "no.vdb"}), 3, "no.vdb: cannot be read");
+}
+
+// ---- info ------------------------------------------------------------------------------------------------
+
+TEST_F(CommandLineRender, ShowsTheDeviceOnOneScreen) {
+  const Outcome outcome = run({"info"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_LE(lines(outcome.out).size(), 24u);
+  for (const std::string& line : lines(outcome.out)) EXPECT_LE(line.size(), 100u) << line;
+  EXPECT_NE(outcome.out.find(tests::testDevice()->names().renderer), std::string::npos) << outcome.out;
+}
+
+TEST_F(CommandLineRender, ShowsTheDeviceAsJson) {
+  const Outcome outcome = run({"info", "--json"});
+  EXPECT_EQ(outcome.exitCode, 0);
+  EXPECT_EQ(outcome.err, "");
+  const Json info = Json::parse(outcome.out);
+  EXPECT_EQ(info["device"]["renderer"], tests::testDevice()->names().renderer);
+  EXPECT_FALSE(info["devices"].empty());
+  for (const Json& limit : info["limits"]) {
+    EXPECT_TRUE(limit["value"].is_number());
+    EXPECT_TRUE(limit["consequence"].is_string());
+  }
+  EXPECT_GE(info["limits"]["texture_2d_size"]["value"], 16384);  // what GL 4.3 asks for
+}
+
+TEST_F(CommandLineRender, SaysThatStdoutTookNothing) {
+  const auto closed = [] { close(STDOUT_FILENO); };
+  const auto full = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+  for (const std::function<void()>& inChild : {std::function<void()>(closed), std::function<void()>(full)}) {
+    expectError(run({"info"}, {.inChild = inChild}), 3, "standard output");
+    expectError(run({"info", "--json"}, {.inChild = inChild}), 3, "standard output");
+    expectError(run({"render", "scene.gltf", "-n"}, {.inChild = inChild}), 3, "standard output");
+  }
+}
+
+}  // namespace
+}  // namespace sfumato::test
