@@ -182,7 +182,8 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
   for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
-  device.program({"pipelines/resolve.comp"}, resolveDefines(volumes_, static_cast<size_t>(samples)));
+  device.program({"pipelines/resolve.comp"},
+                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples)));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height,
