@@ -64,13 +64,14 @@ class Builder {
         texels_(texels),
         knots_(knots),
         opaque_(device.program({"scene/surface.vert", "deepshadow/opaque.frag"})),
-        translucent_(device.program({"scene/surface.vert", "deepshadow/translucent.frag"})),
+        listed_(device.program({"scene/surface.vert", "deepshadow/listed.frag"})),
         runs_(device.program({"deepshadow/runs.comp"})),
         viewBlock_(device, "shadow view", sizeof(shared::ViewParams)),
         passBlock_(device, "shadow pass", sizeof(shared::ShadowPassParams)),
         counters_(device, "shadow counters", sizeof(shared::ShadowCounters)) {
     if (!inputs.volumes.empty())
       smoke_ = &device.program({"deepshadow/smoke.comp"}, inputs.volumes.defines());
+    if (inputs.casters.once) once_ = &device.program({"deepshadow/once.comp"});
     counters_.clear();
   }
 
@@ -149,6 +150,7 @@ class Builder {
     }
     if (!built) return false;
     const gl::Profiler::Scope time(device_.profiler(), "runs");
+    if (once_) keepFirstOfObjects(window);
     const std::optional<size_t> knots = writeRuns(window);
     if (!knots) return false;
     map.knots += *knots;
@@ -170,14 +172,14 @@ class Builder {
     useFace(window.face, -static_cast<int>(window.firstCell()), window.firstRow);
     usePass(window);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
-    if (inputs_.casters.translucent) {
+    if (inputs_.casters.listed) {
       const gl::Framebuffer noTarget({side, side});
-      gl::setDrawState({.program = &translucent_,
+      gl::setDrawState({.program = &listed_,
                         .target = &noTarget,
                         .viewport = {0, 0, side, side},
                         .scissor = glm::ivec4(0, window.firstRow, side, window.rows),
                         .depthClamp = true});
-      inputs_.casters.translucent();
+      inputs_.casters.listed();
       gl::storageBarrier();
     }
     if (smoke_) {
@@ -185,6 +187,14 @@ class Builder {
       counters_.bindStorage(STORAGE_COUNTERS);
       gl::dispatch(*smoke_, groupsOver(side, window.rows));
     }
+  }
+
+  void keepFirstOfObjects(const Window& window) {
+    usePass(window);
+    lists_->bindForBuilding();
+    counters_.bindStorage(STORAGE_COUNTERS);
+    gl::dispatchLinear(*once_, window.cells());
+    gl::storageBarrier();
   }
 
   // Lists to runs of knots, from firstKnot_ on; the pool of knots grows when it is full and the pass runs
@@ -196,12 +206,7 @@ class Builder {
     for (;;) {
       const size_t needed = demand * sizeof(shared::ShadowKnot);
       if (needed > limit) return std::nullopt;
-      if (offset + needed > knots_.bytes()) {
-        // Half as much again, so that many lights do not grow it one by one.
-        gl::Buffer grown(device_, "deep shadow knots", (offset + needed) * 3 / 2, gl::Buffer::Whole::Never);
-        grown.copyFrom(knots_, std::min(offset, knots_.bytes()));
-        knots_ = std::move(grown);
-      }
+      if (offset + needed > knots_.bytes()) growKnots(offset + needed, offset);
       const size_t room = std::min(limit, knots_.bytes() - offset);
       auto counters = counters_.readValue<shared::ShadowCounters>();
       counters.knots = 0;
@@ -223,6 +228,21 @@ class Builder {
     }
   }
 
+  // Room for `bytes` of knots, of which the first `used` are kept.
+  void growKnots(size_t bytes, size_t used) {
+    const size_t readable =
+        static_cast<size_t>(device_.limits().textureBufferTexels) * sizeof(shared::ShadowKnot);
+    if (bytes > readable)
+      base::fail(base::ExitCode::Memory,
+                 "deep shadow maps: more than the {} MiB that this device reads at once: lower --shadow-res",
+                 readable >> 20);
+    // Half as much again, so that many lights do not grow it one by one.
+    gl::Buffer grown(device_, "deep shadow knots", std::min(bytes * 3 / 2, readable),
+                     gl::Buffer::Whole::Never);
+    grown.copyFrom(knots_, std::min(used, knots_.bytes()));
+    knots_ = std::move(grown);
+  }
+
   void usePass(const Window& window) {
     shared::ShadowPassParams params{};
     params.march = {static_cast<float>(inputs_.stepMetres), static_cast<float>(inputs_.error), 0.f, 0.f};
@@ -240,9 +260,10 @@ class Builder {
   gl::Buffer& texels_;
   gl::Buffer& knots_;
   const gl::Program& opaque_;
-  const gl::Program& translucent_;
+  const gl::Program& listed_;
   const gl::Program& runs_;
   const gl::Program* smoke_ = nullptr;  // none without media
+  const gl::Program* once_ = nullptr;   // none without objects that shadow once
   gl::Buffer viewBlock_;
   gl::Buffer passBlock_;
   gl::Buffer counters_;

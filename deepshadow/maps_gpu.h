@@ -24,7 +24,8 @@ namespace sfumato::deepshadow {
 // shaders/scene/surface.vert.
 struct Casters {
   std::function<void()> opaque;
-  std::function<void()> translucent;  // empty: there are none
+  std::function<void()> listed;  // translucent ones, opaque ones that do not shadow themselves; empty: none
+  bool once = false;             // whether there are objects that shadow once
 };
 
 // The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
@@ -61,7 +62,8 @@ class Maps {
   Maps(gl::Device& device, const MapInputs& inputs);
 
   const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights
-  // Texels whose march through smoke was cut at its bound; 0 unless steps are absurdly short.
+  // Texels whose march through smoke or walk over their list was cut at its bound; 0 unless steps are
+  // absurdly short or a light passes thousands of objects that shadow once.
   size_t cutMarches() const { return cutMarches_; }
   // For shaders that include shaders/deepshadow/lookup.glsl.
   void bind() const;

@@ -1,15 +1,8 @@
 // Writes the demo scene into a folder: demo.gltf, demo.bin and plume.vdb. A small hall at night: a bowl
 // smokes between columns, a spot light shines into the smoke through stained glass, a lamp through a curtain.
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
-#include "base/error.h"
-#include "base/file.h"
+#include "demos/gltf_writer.h"
 #include "volumes/procedural_smoke.h"
 #include "volumes/vdb_file.h"
 
@@ -18,204 +11,6 @@ namespace {
 
 using glm::vec3;
 using nlohmann::json;
-
-constexpr float pi = 3.14159265f;
-
-json toJson(const vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-// Triangles of one material.
-struct Shape {
-  std::vector<vec3> positions;
-  std::vector<vec3> normals;
-  std::vector<uint32_t> indices;
-
-  uint32_t vertex(const vec3& position, const vec3& normal) {
-    positions.push_back(position);
-    normals.push_back(normal);
-    return static_cast<uint32_t>(positions.size() - 1);
-  }
-
-  // The four corners counter-clockwise, seen from the front.
-  void quad(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
-    indices.insert(indices.end(), {a, b, c, a, c, d});
-  }
-
-  // A parallelogram: `corner` and two edges.
-  void addPlane(const vec3& corner, const vec3& right, const vec3& up) {
-    const vec3 normal = glm::normalize(glm::cross(right, up));
-    const uint32_t first = vertex(corner, normal);
-    vertex(corner + right, normal);
-    vertex(corner + right + up, normal);
-    vertex(corner + up, normal);
-    quad(first, first + 1, first + 2, first + 3);
-  }
-
-  void addBox(const vec3& low, const vec3& high) {
-    const vec3 size = high - low;
-    const vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
-    addPlane(low + z, x, y);
-    addPlane(low + x, -x, y);
-    addPlane(low, z, y);
-    addPlane(low + x + z, -z, y);
-    addPlane(low + y + z, x, -z);
-    addPlane(low, x, z);
-  }
-
-  // Upright, open at both ends; its radius goes from `lower` to `upper`.
-  void addTube(const vec3& foot, float height, float lower, float upper, int sides = 48) {
-    const auto first = static_cast<uint32_t>(positions.size());
-    for (int i = 0; i <= sides; ++i) {
-      const float angle = 2 * pi * static_cast<float>(i) / static_cast<float>(sides);
-      const vec3 outwards(std::sin(angle), 0, std::cos(angle));
-      const vec3 normal = glm::normalize(outwards + vec3(0, (lower - upper) / height, 0));
-      vertex(foot + lower * outwards, normal);
-      vertex(foot + upper * outwards + vec3(0, height, 0), normal);
-    }
-    for (uint32_t i = first; i < first + 2 * static_cast<uint32_t>(sides); i += 2)
-      quad(i, i + 2, i + 3, i + 1);
-  }
-
-  // A level disc that looks up.
-  void addDisc(const vec3& centre, float radius, int sides = 48) {
-    const vec3 up(0, 1, 0);
-    const uint32_t middle = vertex(centre, up);
-    for (int i = 0; i <= sides; ++i) {
-      const float angle = 2 * pi * static_cast<float>(i) / static_cast<float>(sides);
-      vertex(centre + radius * vec3(std::sin(angle), 0, std::cos(angle)), up);
-    }
-    for (uint32_t i = middle + 1; i <= middle + static_cast<uint32_t>(sides); ++i)
-      indices.insert(indices.end(), {middle, i, i + 1});
-  }
-};
-
-struct Material {
-  const char* name;
-  vec3 colour;
-  float roughness = 0.9f;
-  float alpha = 1;
-  bool glass = false;
-};
-
-// A glTF file in the making; indices are as in the format.
-class Gltf {
- public:
-  Gltf() {
-    root_["asset"] = {{"version", "2.0"}, {"generator", "sfumato make_demo_scene"}};
-    root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission"};
-    root_["scene"] = 0;
-  }
-
-  size_t addMaterial(const Material& material) {
-    json entry = {
-        {"name", material.name},
-        {"doubleSided", true},
-        {"pbrMetallicRoughness",
-         {{"baseColorFactor", {material.colour.x, material.colour.y, material.colour.z, material.alpha}},
-          {"metallicFactor", 0},
-          {"roughnessFactor", material.roughness}}}};
-    if (material.alpha < 1) entry["alphaMode"] = "BLEND";
-    if (material.glass) entry["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
-    return add("materials", entry);
-  }
-
-  void addShape(const char* name, const Shape& shape, size_t material, json placement = json::object()) {
-    const json primitive = {
-        {"attributes", {{"POSITION", addPositions(shape.positions)}, {"NORMAL", addVectors(shape.normals)}}},
-        {"indices", addIndices(shape.indices)},
-        {"material", material}};
-    placement["mesh"] = add("meshes", {{"name", name}, {"primitives", {primitive}}});
-    addNode(name, placement);
-  }
-
-  void addLight(const char* name, json light, const json& placement) {
-    light["name"] = name;
-    json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
-    lights.push_back(light);
-    json node = placement;
-    node["extensions"]["KHR_lights_punctual"]["light"] = lights.size() - 1;
-    addNode(name, node);
-  }
-
-  void addCamera(const char* name, float yfov, json placement) {
-    placement["camera"] =
-        add("cameras",
-            {{"name", name}, {"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.05}}}});
-    addNode(name, placement);
-  }
-
-  void addNode(const char* name, json node) {
-    node["name"] = name;
-    root_["scenes"][0]["nodes"].push_back(add("nodes", node));
-  }
-
-  // Writes `path` and its buffer, PATH with the ending .bin.
-  void write(const std::filesystem::path& path) {
-    std::filesystem::path bin = path;
-    bin.replace_extension(".bin");
-    root_["buffers"] = {{{"uri", bin.filename().string()}, {"byteLength", buffer_.size()}}};
-    base::writeFile(bin, buffer_);
-    base::writeFile(path, root_.dump(1) + "\n");
-  }
-
- private:
-  size_t add(const char* list, const json& entry) {
-    root_[list].push_back(entry);
-    return root_[list].size() - 1;
-  }
-
-  template <typename T>
-  size_t addAccessor(const std::vector<T>& values, json accessor) {
-    const size_t bytes = values.size() * sizeof(T);
-    accessor["bufferView"] =
-        add("bufferViews", {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", bytes}});
-    accessor["count"] = values.size();
-    buffer_.append(reinterpret_cast<const char*>(values.data()), bytes);
-    return add("accessors", accessor);
-  }
-
-  size_t addIndices(const std::vector<uint32_t>& indices) {
-    constexpr int unsignedInt = 5125;
-    return addAccessor(indices, {{"componentType", unsignedInt}, {"type", "SCALAR"}});
-  }
-
-  size_t addVectors(const std::vector<vec3>& vectors, json accessor = json::object()) {
-    constexpr int floatType = 5126;
-    accessor["componentType"] = floatType;
-    accessor["type"] = "VEC3";
-    return addAccessor(vectors, accessor);
-  }
-
-  size_t addPositions(const std::vector<vec3>& positions) {
-    vec3 low = positions.front(), high = low;
-    for (const vec3& p : positions) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-    return addVectors(positions, {{"min", toJson(low)}, {"max", toJson(high)}});
-  }
-
-  json root_;
-  std::string buffer_;
-};
-
-json at(const vec3& position) {
-  return {{"translation", toJson(position)}};
-}
-
-// Turned about the vertical by `angle` radians.
-json turned(const vec3& position, float angle) {
-  return {{"translation", toJson(position)}, {"rotation", {0, std::sin(angle / 2), 0, std::cos(angle / 2)}}};
-}
-
-// For a camera or a light: at `eye`, its -Z towards `target`.
-json lookingAt(const vec3& eye, const vec3& target) {
-  const vec3 z = glm::normalize(eye - target);
-  const vec3 x = glm::normalize(glm::cross(vec3(0, 1, 0), z));
-  const vec3 y = glm::cross(z, x);
-  return {{"matrix", {x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, eye.x, eye.y, eye.z, 1}}};
-}
 
 constexpr vec3 bowl(0.1f, 0, -0.4f);  // where the smoke rises
 constexpr float bowlHeight = 0.34f;
@@ -254,7 +49,7 @@ void addWindow(Gltf& gltf, const json& placement) {
   constexpr int columns = 3, rows = 3;
   constexpr float pane = 0.34f, bar = 0.045f, sill = 1.42f;
   const auto glass = [](const char* name, const vec3& colour) {
-    return Material{name, colour, 0.1f, 1, true};
+    return Material{name, colour, 0.1f, 1, true, {}, {}};
   };
   const Material panes[rows * columns] = {
       glass("ruby", {0.95f, 0.07f, 0.05f}),  glass("amber", {1.f, 0.6f, 0.08f}),
@@ -300,18 +95,7 @@ void addCurtain(Gltf& gltf, const json& placement) {
     return vec3(width * (u - 0.5f), height * (1 - v), depth * fold);
   };
   Shape cloth;
-  for (int row = 0; row <= down; ++row)
-    for (int column = 0; column <= across; ++column) {
-      const float u = static_cast<float>(column) / across, v = static_cast<float>(row) / down, step = 1e-3f;
-      const vec3 alongU = point(u + step, v) - point(u - step, v);
-      const vec3 alongV = point(u, v + step) - point(u, v - step);
-      cloth.vertex(point(u, v), glm::normalize(glm::cross(alongV, alongU)));
-    }
-  for (uint32_t row = 0; row < down; ++row)
-    for (uint32_t column = 0; column < across; ++column) {
-      const uint32_t upper = row * (across + 1) + column, lower = upper + across + 1;
-      cloth.quad(lower, lower + 1, upper + 1, upper);
-    }
+  cloth.addSurface(across, down, point);
   gltf.addShape("curtain", cloth, gltf.addMaterial({"crimson cloth", {0.75f, 0.09f, 0.12f}, 0.9f, 0.6f}),
                 placement);
 }
@@ -351,7 +135,7 @@ void makeScene(const std::filesystem::path& folder) {
   constexpr uint64_t seed = 2;
   volumes::writeVdb(folder / "plume.vdb", volumes::makePlume(voxelsHigh, plumeHeight, seed));
 
-  Gltf gltf;
+  Gltf gltf("make_demo_scene");
   addHall(gltf);
   addColumns(gltf);
   // The window stands between the spot light and the smoke, and looks at both.
@@ -370,19 +154,5 @@ void makeScene(const std::filesystem::path& folder) {
 }  // namespace sfumato::demos
 
 int main(int argc, char** argv) {
-  using sfumato::base::ExitCode;
-  if (argc != 2) {
-    std::fputs("usage: make_demo_scene FOLDER\n", stderr);
-    return static_cast<int>(ExitCode::Usage);
-  }
-  try {
-    std::filesystem::create_directories(argv[1]);
-    sfumato::demos::makeScene(argv[1]);
-  } catch (const sfumato::base::Error& error) {
-    std::fprintf(stderr, "make_demo_scene: error: %s\n", error.what());
-    return static_cast<int>(error.exitCode);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "make_demo_scene: error: %s: cannot be written: %s\n", argv[1], error.what());
-    return static_cast<int>(ExitCode::Input);
-  }
+  return sfumato::demos::makeScenes("make_demo_scene", argc, argv, sfumato::demos::makeScene);
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/error.h"
 #include "shaders/shared/bindings.h"
 
 namespace sfumato::pipelines {
@@ -58,7 +59,18 @@ shared::MaterialData materialData(const Material& material) {
     const glm::mat2x3 rows = glm::transpose(used.use.textureFromUv);
     for (int row = 0; row < 2; ++row) data.uvTransforms[2 * used.unit + row] = glm::vec4(rows[row], 0);
   }
+  data.shadow.x = material.shadowRim;
   return data;
+}
+
+// SHADOW_* of the next instance of a material; `objects` counts those that have any.
+int shadowObject(const Material& material, int& objects) {
+  if (material.shadowSelf && !material.shadowOnce) return 0;
+  if (++objects > SHADOW_OBJECT_LIMIT)
+    base::fail(base::ExitCode::Input,
+               "scene: more than {} objects have shadow_self or shadow_once: join some, or drop the flags",
+               SHADOW_OBJECT_LIMIT);
+  return objects | (material.shadowSelf ? 0 : SHADOW_NOT_SELF) | (material.shadowOnce ? SHADOW_ONCE : 0);
 }
 
 gl::Texture uploadTexture(gl::Device& device, const Texture& texture, bool srgb) {
@@ -96,24 +108,27 @@ void GeometryGpu::uploadMeshes(gl::Device& device, const Scene& scene) {
   std::stable_sort(order.begin(), order.end(),
                    [&](size_t a, size_t b) { return scene.instances[a].mesh < scene.instances[b].mesh; });
   std::vector<shared::DrawData> drawData;
+  int objects = 0;
   for (const size_t number : order) {
     const Instance& instance = scene.instances[number];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     if (mesh.indices.empty()) continue;
-    std::vector<Draw>& list =
-        scene.materials[static_cast<size_t>(mesh.material)].translucent() ? translucent_ : opaque_;
+    const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+    hasShadowOnce_ = hasShadowOnce_ || material.shadowOnce;
+    hasNotSelf_ = hasNotSelf_ || !material.shadowSelf;
     gl::IndexedRange range = meshRanges[static_cast<size_t>(instance.mesh)];
-    const bool sameMesh = !list.empty() && list.back().range.firstIndex == range.firstIndex;
+    const bool sameMesh = !draws_.empty() && draws_.back().range.firstIndex == range.firstIndex;
     if (sameMesh) {
-      ++list.back().range.instances;
+      ++draws_.back().range.instances;
     } else {
       range.firstInstance = drawData.size();
-      list.push_back({range, mesh.material});
+      const bool translucent = material.translucent();
+      draws_.push_back({range, mesh.material, translucent, translucent || !material.shadowSelf});
     }
     shared::DrawData data{};
     data.worldFromObject = instance.worldFromObject;
     data.normalFromObject = glm::mat4(glm::mat3(glm::transpose(glm::inverse(instance.worldFromObject))));
-    data.indices = {mesh.material, static_cast<int>(triangles_), 0, 0};
+    data.indices = {mesh.material, static_cast<int>(triangles_), shadowObject(material, objects), 0};
     drawData.push_back(data);
     triangles_ += mesh.indices.size() / 3;
   }
@@ -158,11 +173,30 @@ void GeometryGpu::bindTextures(int material) const {
     textures_[static_cast<size_t>(textures.unit[unit])].bind(unit);
 }
 
+bool GeometryGpu::Draw::isIn(Layer layer) const {
+  switch (layer) {
+    case Layer::Opaque:
+      return !translucent;
+    case Layer::Translucent:
+      return translucent;
+    case Layer::ShadowDepth:
+      return !listed;
+    case Layer::ShadowLists:
+      return listed;
+  }
+  return false;
+}
+
+bool GeometryGpu::has(Layer layer) const {
+  return std::any_of(draws_.begin(), draws_.end(), [&](const Draw& draw) { return draw.isIn(layer); });
+}
+
 void GeometryGpu::draw(Layer layer, bool cullBackFaces) const {
   drawData_.bindStorage(STORAGE_DRAWS);
   materialData_.bindStorage(STORAGE_MATERIALS);
   int boundMaterial = -1;
-  for (const Draw& draw : draws(layer)) {
+  for (const Draw& draw : draws_) {
+    if (!draw.isIn(layer)) continue;
     if (draw.material != boundMaterial) {
       boundMaterial = draw.material;
       bindTextures(draw.material);

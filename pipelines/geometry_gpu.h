@@ -12,28 +12,32 @@
 
 namespace sfumato::pipelines {
 
-enum class Layer { Opaque, Translucent };
+// What the camera sees, and what a light's map takes as a depth and as lists: opaque instances that do not
+// shadow themselves are listed with the translucent ones.
+enum class Layer { Opaque, Translucent, ShadowDepth, ShadowLists };
 
 class GeometryGpu {
  public:
-  // Uploads what the scene's instances use. Costs 72 bytes a vertex, 4 an index, 4 a texel (a third more with
-  // mipmaps).
+  // Uploads what the scene's instances use. Throws Input over SHADOW_OBJECT_LIMIT instances of materials that
+  // say how they shadow. Costs 72 bytes a vertex, 4 an index, 4 a texel (a third more with mipmaps).
   GeometryGpu(gl::Device& device, const scene::Scene& scene);
 
   // Draws every instance of a layer with the current draw state; programs start with
   // shaders/scene/surface.vert. `cullBackFaces`: of materials that are not double-sided.
   void draw(Layer layer, bool cullBackFaces) const;
-  bool has(Layer layer) const { return !draws(layer).empty(); }
+  bool has(Layer layer) const;
+  bool hasShadowOnce() const { return hasShadowOnce_; }  // any material
+  bool hasNotSelf() const { return hasNotSelf_; }        // any material that does not shadow its own instance
   size_t triangles() const { return triangles_; }
 
  private:
   struct Draw {
     gl::IndexedRange range;
     int material = 0;
+    bool translucent = false;
+    bool listed = false;
+    bool isIn(Layer layer) const;
   };
-  const std::vector<Draw>& draws(Layer layer) const {
-    return layer == Layer::Opaque ? opaque_ : translucent_;
-  }
   void uploadMeshes(gl::Device& device, const scene::Scene& scene);
   void uploadMaterials(gl::Device& device, const scene::Scene& scene);
   void bindTextures(int material) const;
@@ -44,8 +48,7 @@ class GeometryGpu {
     bool doubleSided = false;
   };
 
-  std::vector<Draw> opaque_;
-  std::vector<Draw> translucent_;
+  std::vector<Draw> draws_;
   std::vector<MaterialTextures> materials_;
   std::vector<gl::Texture> textures_;  // the first one is a white texel
   gl::Buffer vertices_;
@@ -54,6 +57,8 @@ class GeometryGpu {
   gl::Buffer materialData_;
   gl::VertexArray vertexArray_;
   size_t triangles_ = 0;
+  bool hasShadowOnce_ = false;
+  bool hasNotSelf_ = false;
 };
 
 }  // namespace sfumato::pipelines

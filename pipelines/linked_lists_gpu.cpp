@@ -27,8 +27,10 @@ std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
   return faces;
 }
 
-gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, size_t samples) {
+gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const GeometryGpu& geometry,
+                                 size_t samples) {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)}};
+  if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
   for (const auto& define : volumes.defines()) defines.push_back(define);
   defines.emplace_back("SMOKE", "1");
@@ -42,6 +44,7 @@ struct ResolveInputs {
   const lights::LightLists& lights;
   const deepshadow::Maps& shadows;
   const volumes::VolumesGpu& volumes;
+  const GeometryGpu& geometry;
   int width = 0;
   int height = 0;
   Quality quality;
@@ -138,7 +141,7 @@ ResolveOutputs resolve(gl::Device& device, const ResolveInputs& inputs) {
   const size_t pixels = static_cast<size_t>(inputs.width) * static_cast<size_t>(inputs.height);
   const size_t rayCount = pixels + split.count * (samples - 1);
   const gl::Program& program =
-      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.volumes, samples));
+      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.volumes, inputs.geometry, samples));
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
@@ -179,7 +182,8 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
   for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
-  device.program({"pipelines/resolve.comp"}, resolveDefines(volumes_, static_cast<size_t>(samples)));
+  device.program({"pipelines/resolve.comp"},
+                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples)));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height,
@@ -199,9 +203,10 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     const auto receivers =
         scene::visiblePoints(scene_, mediaBoxes_, camera, static_cast<double>(width) / height);
     const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
-    deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::Opaque, false); }, .translucent = {}};
-    if (geometry_.has(Layer::Translucent))
-      casters.translucent = [&] { geometry_.draw(Layer::Translucent, false); };
+    deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
+                                .once = geometry_.hasShadowOnce()};
+    if (geometry_.has(Layer::ShadowLists))
+      casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
     const double step = volumes_.empty() ? 1.0 : quality.stepVoxels * volumes_.voxelSize();
     return deepshadow::Maps(device_, {.lights = scene_.lights,
                                       .casters = casters,
@@ -228,8 +233,8 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   frame.statistics.surfaces = surfaces.statistics;
 
   const Profiler::Scope time(device_.profiler(), "resolve");
-  ResolveOutputs resolved = resolve(
-      device_, {view, gbuffer, surfaces.lists, lightLists, shadows, volumes_, width, height, quality});
+  ResolveOutputs resolved = resolve(device_, {view, gbuffer, surfaces.lists, lightLists, shadows, volumes_,
+                                              geometry_, width, height, quality});
   frame.radiance = std::move(resolved.radiance);
   frame.statistics.splitPixels = resolved.splitPixels;
   frame.statistics.resolveDispatches = resolved.dispatches;

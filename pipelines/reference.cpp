@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@ using scene::Vertex;
 using volumes::Medium;
 
 constexpr double startOffset = 1e-6;  // of the scene's extent: how far off its surface a shadow ray starts
+constexpr double grazing = 0.05;      // the least cosine that the way through a shell is counted at
 constexpr double negligible = 1e-9;   // transmittance that is not followed any further
 
 bool isNegligible(const glm::dvec3& transmittance) {
@@ -44,6 +46,8 @@ class Geometry {
   const Material& material(const Hit& hit) const {
     return scene_.materials[static_cast<size_t>(mesh(hit).material)];
   }
+
+  uint32_t object(const Hit& hit) const { return sources_[hit.triangle].instance; }
 
   // Whether a camera ray sees the face that it hit: front faces, counter-clockwise in the world, and both of
   // doubleSided materials.
@@ -180,26 +184,57 @@ class Tracer {
           brdf(reflector, -ray.direction, arriving.toLight) * cosine * arriving.irradiance;
       if (reflected == glm::dvec3(0)) continue;
       const glm::dvec3 start = point.position + surfaceOffset_ * point.geometricNormal;
-      radiance += reflected * shadowTransmittance(light, start, illuminate(light, start));
+      radiance += reflected * shadowTransmittance(light, start, illuminate(light, start), &hit);
     }
     return radiance;
   }
 
-  // The part of a light that gets to a point through all surfaces and media.
-  glm::dvec3 shadowTransmittance(const Light& light, const glm::dvec3& pWorld,
-                                 const Illumination& arriving) const {
+  // The part of a light that gets to a point through all surfaces and media. `receiver` is the surface that
+  // the point is on, or null.
+  glm::dvec3 shadowTransmittance(const Light& light, const glm::dvec3& pWorld, const Illumination& arriving,
+                                 const Hit* receiver) const {
     if (!light.castsShadow) return glm::dvec3(1);
     const Ray ray{pWorld, arriving.toLight};
     const double distance = std::isfinite(arriving.distance) ? arriving.distance : distanceOutOf(pWorld);
+    const std::optional<uint32_t> spared = receiver && !geometry_.material(*receiver).shadowSelf
+                                               ? std::optional(geometry_.object(*receiver))
+                                               : std::nullopt;
+    struct First {
+      double t;
+      glm::dvec3 passing;
+    };
+    std::map<uint32_t, First> firsts;  // of the objects that shadow once, the surface nearest to the light
     glm::dvec3 transmittance(1);
     const auto visit = [&](const Hit& hit) {
-      transmittance *= coverageAt(scene_, geometry_.material(hit), geometry_.pointAt(ray, hit)).passing();
+      const uint32_t object = geometry_.object(hit);
+      if (object == spared) return distance;
+      const SurfacePoint point = geometry_.pointAt(ray, hit);
+      const Coverage coverage = coverageAt(scene_, geometry_.material(hit), point);
+      if (coverage.alpha == 0) return distance;
+      const glm::dvec3 passing = passingLight(hit, point, coverage, ray.direction);
+      if (!geometry_.material(hit).shadowOnce) {
+        transmittance *= passing;
+      } else {
+        const auto [first, isNew] = firsts.try_emplace(object, hit.t, passing);
+        if (!isNew && hit.t > first->second.t) first->second = {hit.t, passing};
+      }
       return isNegligible(transmittance) ? -scene::infinity : distance;
     };
     geometry_.bvh().forEachHit(ray, 0, distance, std::ref(visit));
+    for (const auto& [object, first] : firsts) transmittance *= first.passing;
     if (isNegligible(transmittance)) return glm::dvec3(0);
     return transmittance *
            std::exp(-volumes::opticalDepth(media_, pWorld, ray.at(distance), options_.shadowStepVoxels));
+  }
+
+  // What a surface lets through of light that comes along a direction, or against it.
+  glm::dvec3 passingLight(const Hit& hit, const SurfacePoint& point, const Coverage& coverage,
+                          const glm::dvec3& direction) const {
+    const Material& material = geometry_.material(hit);
+    if (material.shadowRim == 0) return coverage.passing();
+    const glm::dvec3 normal = reflectorAt(scene_, material, point, coverage).normal;
+    const double cosine = std::max(std::abs(glm::dot(normal, direction)), grazing);
+    return glm::pow(coverage.passing(), glm::dvec3(1 + material.shadowRim * (1 / cosine - 1)));
   }
 
   // A distance from the point in any direction beyond which there is nothing.
@@ -272,7 +307,7 @@ class Tracer {
       glm::dvec3 turned(0);
       for (size_t i = 0; i < media.size(); ++i)
         turned += extinctions[i] * media[i]->albedo * volumes::phaseHenyeyGreenstein(cosine, media[i]->g);
-      sum += turned * arriving.irradiance * shadowTransmittance(light, pWorld, arriving);
+      sum += turned * arriving.irradiance * shadowTransmittance(light, pWorld, arriving, nullptr);
     }
     return sum;
   }

@@ -133,6 +133,14 @@ int index(const Faults& faults, const Value& object, const char* key, int otherw
   return value.GetNumberAsInt();
 }
 
+bool truth(const Faults& faults, const Value& object, const char* key, bool otherwise,
+           const std::string& where) {
+  if (!object.Has(key)) return otherwise;
+  const Value& value = object.Get(key);
+  if (!value.IsBool()) faults.fail("{}: {} is not a boolean: give true or false", where, key);
+  return value.Get<bool>();
+}
+
 std::string text(const Faults& faults, const Value& object, const char* key, const std::string& where) {
   if (!object.Has(key)) return "";
   const Value& value = object.Get(key);
@@ -491,6 +499,7 @@ class Materials {
     to.unlit = find(from.extensions, "KHR_materials_unlit") != nullptr;
     if (!to.unlit) readTransmission(from, to, where);
     readSpecular(from, to, where);
+    readShadows(from.extras, to, where);
     return to;
   }
 
@@ -527,6 +536,13 @@ class Materials {
       const double f0 = ior == 0 ? 1 : std::pow((ior - 1) / (ior + 1), 2);
       to.specularColour *= static_cast<float>(f0 / 0.04);
     }
+  }
+
+  void readShadows(const Value& extras, Material& to, const std::string& where) {
+    to.shadowSelf = truth(faults_, extras, "shadow_self", to.shadowSelf, where);
+    to.shadowOnce = truth(faults_, extras, "shadow_once", to.shadowOnce, where);
+    to.shadowRim = static_cast<float>(
+        faults_.notNegative(number(faults_, extras, "shadow_rim", to.shadowRim, where), where, "shadow_rim"));
   }
 
   TextureUse use(const Value& extension, const char* key, const std::string& where) {

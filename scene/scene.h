@@ -84,6 +84,10 @@ struct Material {
   glm::vec3 specularColour{1.f};
   TextureUse specularColourTexture;
   bool unlit = false;  // emits its base colour times alpha and reflects nothing, whatever stands above
+  // How an instance of this material shadows (Lindbeck 2015, section 2.2.4 and figure 3.4).
+  bool shadowSelf = true;   // false: no surface of an instance is shadowed by the same instance
+  bool shadowOnce = false;  // true: of an instance's translucent surfaces light meets only the first
+  float shadowRim = 0.f;    // k >= 0: light passes as t^(1 + k (1 / |cos| - 1)); 1 is a thin shell's law
 
   // Lets light through (BLEND or transmissive), so it lives in lists, not in the G-buffer.
   bool translucent() const { return alphaMode == AlphaMode::Blend || transmission > 0.f; }

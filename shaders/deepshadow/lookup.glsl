@@ -31,14 +31,41 @@ ShadowTexel shadowTexel(uint number) {
   return ShadowTexel(words.x, words.y, uintBitsToFloat(words.z));
 }
 
-// Through what lets light pass, opaque surfaces aside.
-vec3 runTransmittance(ShadowTexel texel, float depth) {
-  return texel.count == 0u ? vec3(1.0) : exp(-opticalDepthAt(texel.first, texel.count, depth));
+uint knotCount(ShadowTexel texel) {
+  return texel.count & ~SHADOW_OWN_STEPS;
+}
+
+// Through what lets light pass, opaque surfaces aside; `ownTau` is taken out.
+vec3 runTransmittance(ShadowTexel texel, float depth, vec3 ownTau) {
+  uint count = knotCount(texel);
+  return count == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel.first, count, depth), 0.0));
+}
+
+// Walks the own steps of a texel (see ShadowTexel) up to `depth`: gives what those of `object` add to the optical
+// depth at `depth - slack`, and makes the first opaque one of another object the texel's opaque depth.
+vec3 takeOwnSteps(inout ShadowTexel texel, float depth, float slack, uint object) {
+  vec3 ownTau = vec3(0.0);
+#ifdef SHADOW_OBJECTS
+  uint number = texel.first + knotCount(texel);
+  vec4 listed = vec4(0.0);
+  if ((texel.count & SHADOW_OWN_STEPS) != 0u) listed = texelFetch(shadowKnots, int(number));
+  while (listed.y != 0.0 && listed.x <= depth) {
+    if (uint(listed.y) == object && listed.x <= depth - slack) {
+      int before = int(texel.first) + int(listed.z);
+      ownTau += texelFetch(shadowKnots, before + 1).yzw - texelFetch(shadowKnots, before).yzw;
+    } else if (uint(listed.y) != object && listed.w != 0.0) {
+      texel.opaqueDepth = min(texel.opaqueDepth, listed.x);
+    }
+    ++number;
+    listed = texelFetch(shadowKnots, int(number));
+  }
+#endif
+  return ownTau;
 }
 
 vec3 texelTransmittance(uint number, float depth) {
   ShadowTexel texel = shadowTexel(number);
-  return depth > texel.opaqueDepth ? vec3(0.0) : runTransmittance(texel, depth);
+  return depth > texel.opaqueDepth ? vec3(0.0) : runTransmittance(texel, depth, vec3(0.0));
 }
 
 // Of a light's `faces` (1, or the 6 of a cube: +x -x +y -y +z -z) the one that sees a point `toPoint` away from it.
@@ -79,13 +106,13 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, bool bilinear) {
   return sum;
 }
 
-// Of a point on a surface with the plane normal `normal`: the four texels around it, each asked at the depth at
-// which the ray through its centre meets that plane, so that a flat surface neither shadows itself nor leaks,
-// whatever the angle and the resolution. What lies before the plane by less than a texel or two is where a texel
+// Of a point on a surface of `object` (see PackedSurface) with the plane normal `normal`: the four texels around it, each
+// asked at the depth at which the ray through its centre meets that plane, so that a flat surface neither shadows itself
+// nor leaks, whatever the angle and the resolution. What lies before the plane by less than a texel or two is where a texel
 // cannot tell: another surface that joins this one in a corner, or this one where it is curved. An opaque texel of
 // that kind is left out as long as others tell something, and lit where none does; a translucent one is looked up that
 // much earlier.
-vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal) {
+vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal, uint object) {
   ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
   vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
   vec3 n = mat3(face.faceFromWorld) * normal;
@@ -111,11 +138,16 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     float slack = texelWidth + 0.3 * abs(depth - ownDepth);
     depth -= rounding;
     ShadowTexel texel = shadowTexel(texelNumber(face, ivec2(corner) + offset));
+    vec3 ownTau = takeOwnSteps(texel, depth, slack, object);
     if (min(depth, ownDepth) - slack > texel.opaqueDepth) {
       told += share;
     } else {
-      vec3 through = share * runTransmittance(texel, min(depth, texel.opaqueDepth) - slack);
-      if (depth <= texel.opaqueDepth) {
+      bool lit = depth <= texel.opaqueDepth;
+      // At a grazing angle the plane is met far on the light's side of the point: with something else in between, the
+      // texel tells only where no other does.
+      if (lit && texel.opaqueDepth > depth + 4.0 * rounding && texel.opaqueDepth < ownDepth - texelWidth) share *= 1e-6;
+      vec3 through = share * runTransmittance(texel, min(depth, texel.opaqueDepth) - slack, ownTau);
+      if (lit) {
         sum += through;
         told += share;
       } else {

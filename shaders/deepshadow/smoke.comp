@@ -76,7 +76,7 @@ void main() {
       if ((!open || newMin > newMax) && depth > segmentDepth) {
         float range = depth - segmentDepth;
         float drop = range * clamp((tau - segmentTau) / range, slopeMin, slopeMax);
-        uint node = insertShadowNode(cell, segmentDepth, range, vec3(drop), id, hint);
+        uint node = insertShadowNode(cell, segmentDepth, range, vec3(drop), 0u, id, hint);
         if (node != 0u) hint = node;
         ++id;
         segmentDepth = depth;

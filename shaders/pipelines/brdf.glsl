@@ -10,6 +10,7 @@ struct Surface {
   vec3 f0;
   float f90;
   vec3 emissive;
+  uint object;  // see PackedSurface
 };
 
 Surface unpackSurface(PackedSurface s) {
@@ -23,6 +24,7 @@ Surface unpackSurface(PackedSurface s) {
   surface.f0 = vec3(unpackHalf2x16(s.f0Rg), f0B.x);
   surface.f90 = f0B.y;
   surface.emissive = vec3(unpackHalf2x16(s.emissiveRg), unpackHalf2x16(s.emissiveBPassR).x);
+  surface.object = s.coverageObject >> 16;
   return surface;
 }
 

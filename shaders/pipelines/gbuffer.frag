@@ -10,6 +10,6 @@ void main() {
   if (base.a == 0.0) discard;
   PackedSurface s = packSurface(base);
   surface0 = uvec4(s.normal, s.geometricNormal, s.diffuseRg, s.diffuseBRoughness);
-  surface1 = uvec4(s.f0Rg, s.f0BF90, s.emissiveRg, s.emissiveBPassR);
+  surface1 = uvec4(s.f0Rg, s.f0BF90, s.emissiveRg, (s.emissiveBPassR & 0xffffu) | (s.coverageObject & 0xffff0000u));
   depth = fragmentDepth();
 }

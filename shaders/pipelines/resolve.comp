@@ -1,7 +1,8 @@
 // The frame's last pass: each ray walks its sorted surfaces front to back, marches the smoke between them and up to
 // the opaque depth, and lights both through light lists and deep shadow maps. A ray that has done much work keeps
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
-// SMOKE is defined when there are media; then VOLUME_COUNT says how many.
+// SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
+// objects that do not shadow themselves.
 #include "shaders/deepshadow/lookup.glsl"
 #include "shaders/lights/light_lists.glsl"
 #include "shaders/lists/links.glsl"
@@ -55,7 +56,7 @@ vec3 reflectedFrom(uint number, Surface surface, vec3 p, vec3 toViewer) {
   float cosine = dot(surface.normal, toLight);
   if (maxComponent(irradiance) <= 0.0 || cosine <= 0.0 || dot(surface.geometricNormal, toLight) <= 0.0) return vec3(0.0);
   if (light.indices.y >= 0)
-    irradiance *= shadowOnSurface(light.indices.y, light.indices.z, light.position.xyz, p, surface.geometricNormal);
+    irradiance *= shadowOnSurface(light.indices.y, light.indices.z, light.position.xyz, p, surface.geometricNormal, surface.object);
   return brdf(surface, toLight, toViewer) * irradiance * cosine;
 }
 
@@ -275,7 +276,7 @@ void main() {
 #endif
     if (atSurface && node != 0u) {
       PackedSurface stored = surfaceNodes[node];
-      if (!place.split || (stored.coverage >> place.number & 1u) != 0u) {
+      if (!place.split || (stored.coverageObject >> place.number & 1u) != 0u) {
         radiance += throughput * shadeSurface(unpackSurface(stored), ray, nextSurface);
         throughput *= surfacePass(stored);
       }
@@ -285,7 +286,7 @@ void main() {
       if (opaque < view.depthRange.y) {
         uvec4 more = texelFetch(opaqueSurface1, place.pixel, place.number);
         PackedSurface stored = PackedSurface(opaqueWords.x, opaqueWords.y, opaqueWords.z, opaqueWords.w, more.x, more.y,
-                                             more.z, more.w, 0u, 0u);
+                                             more.z, more.w, 0u, more.w & 0xffff0000u);
         radiance += throughput * shadeSurface(unpackSurface(stored), ray, opaque);
       }
       walking = false;

@@ -59,7 +59,7 @@ bool listSamplesDiffer(uint number) {
   uint walked = 0u;
   uint node = listHeads[number];
   while (node != 0u && !differ) {
-    if ((surfaceNodes[node].coverage & all) != all || walked == LIST_LIMIT) differ = true;
+    if ((surfaceNodes[node].coverageObject & all) != all || walked == LIST_LIMIT) differ = true;
     node = listLinks[node].next;
     ++walked;
   }

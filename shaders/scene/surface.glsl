@@ -51,6 +51,7 @@ PackedSurface packSurface(vec4 base) {
   }
   vec3 pass = passThrough(base, tau);
   vec3 geometric = geometricNormal();
+  int object = draws[vDraw].indices.z;
 
   PackedSurface s;
   s.normal = packSnorm2x16(octahedralFromUnit(shadingNormal(material, geometric)));
@@ -62,6 +63,6 @@ PackedSurface packSurface(vec4 base) {
   s.emissiveRg = packHalf2x16(min(emissive.rg, 65504.0));
   s.emissiveBPassR = packHalf2x16(vec2(min(emissive.b, 65504.0), pass.r));
   s.passGb = packHalf2x16(pass.gb);
-  s.coverage = uint(gl_SampleMaskIn[0]);
+  s.coverageObject = uint(gl_SampleMaskIn[0]) | ((object & SHADOW_NOT_SELF) != 0 ? uint(object) << 16 : 0u);
   return s;
 }

@@ -11,9 +11,12 @@ struct ShadowFace {
 };
 
 // The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots.
+// Steps of objects that do not shadow themselves stand in the list once more, behind those knots, so that they can be
+// taken out again: as knots of (depth, object, number of the knot before the step, 1 where opaque), ended by one of
+// object 0.
 struct ShadowTexel {
   uint first;         // knot
-  uint count;
+  uint count;         // and SHADOW_OWN_STEPS
   float opaqueDepth;  // 3e38: nothing opaque
 };
 
@@ -28,7 +31,7 @@ struct ShadowKnot {
 struct ShadowNode {
   float range;        // m; 0: a surface, a step
   uint tauRg;         // optical depth of the drop, halves
-  uint tauBFlags;
+  uint tauBObject;    // low: the same; high: SHADOW_* of the object, 0 for most
 };
 
 struct ShadowPassParams {
@@ -38,10 +41,12 @@ struct ShadowPassParams {
 
 struct ShadowCounters {
   uint knots;       // demand, counted past the capacity
-  uint boundHit;    // texels whose march was longer than its bound
+  uint boundHit;    // texels whose march or walk was longer than its bound
 };
 
 SHARED_END
 
 #define SHADOW_OPAQUE_TAU 100.0
+#define SHADOW_DARK_TAU 50.0  // what takes more than this is as good as opaque
 #define NOTHING_OPAQUE 3e38
+#define SHADOW_OWN_STEPS 0x80000000u

@@ -1,4 +1,5 @@
-// A lit surface point, packed: two G-buffer textures hold the first eight words, a node of the camera's lists all of them.
+// A lit surface point, packed: two G-buffer textures hold the first eight words, with the object in place of what an
+// opaque surface lets pass; a node of the camera's lists all of them.
 #pragma once
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
@@ -14,7 +15,7 @@ struct PackedSurface {
   uint emissiveRg;
   uint emissiveBPassR;     // t = 1 - a (1 - tau b): what is let through
   uint passGb;
-  uint coverage;  // bit n: sample n of the pixel is covered
+  uint coverageObject;     // low: bit n: sample n of the pixel is covered; high: SHADOW_* if it does not shadow itself
 };
 
 SHARED_END

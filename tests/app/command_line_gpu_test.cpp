@@ -378,8 +378,7 @@ TEST_F(CommandLineRender, DrawsSmokeAloneAsTheReferenceDoes) {
     } catch (const base::Error& error) {
       GTEST_SKIP() << error.what();
     }
-    const Arguments call = {"render", "--volume", "smoke.vdb", "--res",        "64x48", "--quality",
-                            "draft",  "--step",   "0.5",       "--shadow-res", "2048"};
+    const Arguments call = {"render", "--volume", "smoke.vdb", "--res", "64x48", "--quality", "high"};
     Arguments gpu = call;
     gpu.insert(gpu.end(), {"-o", "gpu.exr"});
     Arguments reference = call;

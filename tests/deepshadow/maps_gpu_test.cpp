@@ -50,8 +50,9 @@ class MapsGpu : public tests::GpuTest {
   ReadMap build(const KnownScene& known, int resolution, double error, double stepVoxels = 0.25) {
     const pipelines::GeometryGpu geometry(device(), known.scene);
     const volumes::VolumesGpu media(device(), known.media);
-    const Casters casters{.opaque = [&] { geometry.draw(pipelines::Layer::Opaque, false); },
-                          .translucent = [&] { geometry.draw(pipelines::Layer::Translucent, false); }};
+    const Casters casters{.opaque = [&] { geometry.draw(pipelines::Layer::ShadowDepth, false); },
+                          .listed = [&] { geometry.draw(pipelines::Layer::ShadowLists, false); },
+                          .once = geometry.hasShadowOnce()};
     const std::vector<dvec3> hull = {{-4, -1, -4}, {4, 4, 4},  {-4, 4, 4},
                                      {4, -1, -4},  {4, -1, 4}, {-4, 4, -4}};
     const Maps maps(device(), {.lights = known.scene.lights,

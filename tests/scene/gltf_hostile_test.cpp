@@ -376,6 +376,16 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"specular colour", [](Json& j) { extension(j, "KHR_materials_specular")["specularColorFactor"] = {1, 1}; },
        "not an array of 3 numbers"},
       {"ior", [](Json& j) { extension(j, "KHR_materials_ior")["ior"] = 0.5; }, "ior is 0.5"},
+      {"shadow_self is a number", [](Json& j) { j["materials"][0]["extras"]["shadow_self"] = 0; },
+       "material 0 \"paint\": shadow_self is not a boolean"},
+      {"shadow_once is text", [](Json& j) { j["materials"][0]["extras"]["shadow_once"] = "yes"; },
+       "material 0 \"paint\": shadow_once is not a boolean"},
+      {"shadow_rim is true", [](Json& j) { j["materials"][0]["extras"]["shadow_rim"] = true; },
+       "material 0 \"paint\": shadow_rim is not a number"},
+      {"shadow_rim negative", [](Json& j) { j["materials"][0]["extras"]["shadow_rim"] = -0.5; },
+       "material 0 \"paint\": shadow_rim is -0.5"},
+      {"shadow_rim beyond floats", [](Json& j) { j["materials"][0]["extras"]["shadow_rim"] = 1e300; },
+       "material 0 \"paint\": shadow_rim is 1e+300"},
 
       // Volumes.
       {"volume is a number", [](Json& j) { volume(j)["volume"] = 3; }, "node 4 \"smoke\": volume is not a string"},

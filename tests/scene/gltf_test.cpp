@@ -456,6 +456,19 @@ TEST(GltfMaterial, EveryFactor) {
   EXPECT_TRUE(m.translucent());
 }
 
+TEST(GltfMaterial, ShadowsFromExtras) {
+  const auto read = [](const Json& extras) { return load(withMaterial({{"extras", extras}})).materials[0]; };
+  const Material all = read({{"shadow_self", false}, {"shadow_once", true}, {"shadow_rim", 1.5}});
+  EXPECT_FALSE(all.shadowSelf);
+  EXPECT_TRUE(all.shadowOnce);
+  EXPECT_EQ(all.shadowRim, 1.5f);
+  const Material none = read({{"something_else", "of another program"}});
+  EXPECT_TRUE(none.shadowSelf);
+  EXPECT_FALSE(none.shadowOnce);
+  EXPECT_EQ(none.shadowRim, 0.f);
+  EXPECT_EQ(read({{"shadow_rim", 2}}).shadowRim, 2.f);
+}
+
 TEST(GltfMaterial, IndexOfRefractionScalesTheSpecularColour) {
   const auto specular = [](double ior) {
     return load(withMaterial({{"extensions", {{"KHR_materials_ior", {{"ior", ior}}}}}}))

@@ -1,0 +1,176 @@
+// The pictures of Lindbeck 2015 and the faults in them (its sections 2.2.4, 3.1 and 4): the GPU's frame
+// against the CPU reference, and bounds on acne and leaks over light angles and shadow resolutions.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <numbers>
+
+#include "image/image_file.h"
+#include "image/metrics.h"
+#include "pipelines/linked_lists_gpu.h"
+#include "pipelines/reference.h"
+#include "tests/gl/test_device.h"
+#include "tests/pipelines/thesis_scenes.h"
+
+namespace sfumato::pipelines {
+namespace {
+
+using tests::KnownScene;
+
+constexpr double pi = std::numbers::pi;
+constexpr int width = 64;
+constexpr int height = 48;
+
+const Quality fine{.samples = 1,
+                   .shadowResolution = 1024,
+                   .stepVoxels = 0.5,
+                   .shadowError = 1.0 / 4096,
+                   .throughputCutoff = 1e-6,
+                   .bilinearSmokeShadows = true};
+
+void keep(const std::string& name, const image::Image& image) {
+  if (const char* folder = std::getenv("SFUMATO_TEST_OUTPUT"))
+    image::writeImage(std::string(folder) + "/" + name + ".exr", image, {});
+}
+
+class ThesisGpu : public tests::GpuTest {
+ protected:
+  Frame draw(const KnownScene& known, const Quality& quality) {
+    LinkedListsPipeline pipeline(device(), known.scene, known.media);
+    return pipeline.render(known.scene.cameras[0], width, height, quality);
+  }
+
+  static image::Image reference(const KnownScene& known, double stepVoxels = 0.5) {
+    return renderReference(known.scene, known.scene.cameras[0], known.media,
+                           {.width = width, .height = height, .stepVoxels = stepVoxels});
+  }
+};
+
+class ThesisScenesGpu : public ThesisGpu, public testing::WithParamInterface<std::string> {};
+
+std::vector<std::string> sceneNames() {
+  std::vector<std::string> names;
+  for (const KnownScene& known : tests::thesisScenes()) names.push_back(known.name);
+  return names;
+}
+
+TEST_P(ThesisScenesGpu, LookLikeTheReference) {
+  const std::vector<KnownScene> scenes = tests::thesisScenes();
+  const KnownScene& known =
+      *std::find_if(scenes.begin(), scenes.end(), [](const KnownScene& s) { return s.name == GetParam(); });
+  Quality quality = fine;
+  if (known.scene.lights.size() > 10)
+    quality.shadowResolution = 512;  // the maps of 60 lights are 60 times as large
+  // Near the camera a pane's shadow is a sharp edge in the smoke that both march over.
+  if (known.name == "camera in smoke") quality.stepVoxels = 0.1;
+  const Frame frame = draw(known, quality);
+  const image::Image expected = reference(known, quality.stepVoxels);
+  keep(known.name, frame.radiance);
+  keep(known.name + "_reference", expected);
+  const image::Difference difference = image::compare(frame.radiance, expected);
+  const double mean = difference.rmse / difference.relativeRmse;
+  size_t failing = 0;
+  for (size_t i = 0; i < expected.values.size(); ++i) {
+    const double off = std::abs(double(frame.radiance.values[i]) - double(expected.values[i]));
+    if (!(off <= 0.02 * (mean + std::abs(double(expected.values[i]))))) ++failing;
+  }
+  const double failingFraction = static_cast<double>(failing) / static_cast<double>(expected.values.size());
+  fmt::print("{}: failing {:.4f}, mean ratio {:.5f}, relative RMSE {:.4f}\n", known.name, failingFraction,
+             difference.meanRatio, difference.relativeRmse);
+  // Edges of shadows fall between texels: the pixels on one may fail. Measured: 0.0049, and 0.0020 of the
+  // mean.
+  EXPECT_LT(failingFraction, 0.006);
+  EXPECT_NEAR(difference.meanRatio, 1.0, 0.003);
+  EXPECT_EQ(frame.statistics.cutWalks, 0u);
+}
+
+// GoogleTest takes letters, digits and underscores only.
+std::string testName(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Lindbeck2015, ThesisScenesGpu, testing::ValuesIn(sceneNames()), testName);
+
+// Largest shortfall of a pixel, in units of what a surface that faces the light would send.
+double worstShortfall(const image::Image& image, const image::Image& expected) {
+  double worst = 0;
+  for (size_t i = 0; i < image.values.size(); ++i)
+    worst = std::max(worst, double(expected.values[i]) - double(image.values[i]));
+  return worst / (3 / pi);
+}
+
+const std::vector<double> elevations = {0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.1, 1.3, 1.5, pi / 2};
+const std::vector<int> resolutions = {64, 128, 256, 512, 1024};
+
+TEST_F(ThesisGpu, AFloorHasNoAcneAtAnyAngleAndResolution) {
+  for (const double elevation : elevations) {
+    const KnownScene known = tests::floorAtAngle(elevation);
+    const image::Image expected = reference(known);
+    for (const int resolution : resolutions) {
+      Quality quality = fine;
+      quality.shadowResolution = resolution;
+      EXPECT_LT(worstShortfall(draw(known, quality).radiance, expected), 1e-5)
+          << "elevation " << elevation << ", " << resolution << " texels";
+    }
+  }
+}
+
+TEST_F(ThesisGpu, ABallHasNoAcneAtAnyAngleAndResolution) {
+  for (const double elevation : elevations) {
+    KnownScene known = tests::ballAtAngle(elevation);
+    known.scene.instances.erase(known.scene.instances.begin());  // without the floor: nothing else shadows it
+    const image::Image expected = reference(known);
+    for (const int resolution : resolutions) {
+      Quality quality = fine;
+      quality.shadowResolution = resolution;
+      const double worst = worstShortfall(draw(known, quality).radiance, expected);
+      // Measured: 0.017, beside the terminator.
+      EXPECT_LT(worst, 0.025) << "elevation " << elevation << ", " << resolution << " texels";
+    }
+  }
+}
+
+TEST_F(ThesisGpu, NoLightLeaksIntoAClosedBox) {
+  const scene::Light lights[] = {tests::directionalLight({0.3, -1, 0.2}, {100, 100, 100}),
+                                 tests::directionalLight({1, -0.05, 0.02}, {100, 100, 100}),
+                                 tests::pointLight({1.3, 0.4, 1.1}, {100, 100, 100}),
+                                 tests::spotLight({-3, 3, 2}, {0, 1, 0}, {1000, 1000, 1000}, 0.5, 0.9)};
+  for (const scene::Light& light : lights) {
+    // Walls are thicker than two texels of any of these maps.
+    const KnownScene known = tests::insideOfClosedBox(light, 0.2f);
+    for (const int resolution : {128, 256, 512, 1024}) {
+      Quality quality = fine;
+      quality.shadowResolution = resolution;
+      const image::Image image = draw(known, quality).radiance;
+      EXPECT_LT(*std::max_element(image.values.begin(), image.values.end()), 1e-3f)
+          << "light " << static_cast<int>(light.type) << ", " << resolution << " texels";
+    }
+  }
+}
+
+// Walls without a thickness are as wide as their texels: what is within one of their outline may be lit.
+TEST_F(ThesisGpu, LittleLightLeaksAlongTheOutlineOfThinWalls) {
+  const KnownScene known =
+      tests::insideOfClosedBox(tests::directionalLight({0.3, -1, 0.2}, {100, 100, 100}), 0);
+  const image::Image image = draw(known, fine).radiance;
+  const auto leaking =
+      std::count_if(image.values.begin(), image.values.end(), [](float v) { return v > 1e-3f; });
+  EXPECT_LT(leaking, 3 * width * height / 200);
+}
+
+TEST_F(ThesisGpu, NoLightLeaksOutOfAClosedBox) {
+  for (const int resolution : resolutions) {
+    Quality quality = fine;
+    quality.shadowResolution = resolution;
+    const image::Image image = draw(tests::outsideOfClosedBox(), quality).radiance;
+    EXPECT_EQ(*std::max_element(image.values.begin(), image.values.end()), 0.f) << resolution << " texels";
+  }
+}
+
+}  // namespace
+}  // namespace sfumato::pipelines
