@@ -378,7 +378,8 @@ TEST_F(CommandLineRender, DrawsSmokeAloneAsTheReferenceDoes) {
     } catch (const base::Error& error) {
       GTEST_SKIP() << error.what();
     }
-    const Arguments call = {"render", "--volume", "smoke.vdb", "--res", "64x48", "--quality", "high"};
+    const Arguments call = {"render",    "--volume", "smoke.vdb", "--res", "64x48",
+                            "--quality", "high",     "--step",    "0.25"};
     Arguments gpu = call;
     gpu.insert(gpu.end(), {"-o", "gpu.exr"});
     Arguments reference = call;

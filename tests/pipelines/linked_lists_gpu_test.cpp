@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
 
 #include "image/image_file.h"
 #include "image/metrics.h"
 #include "pipelines/reference.h"
+#include "scene/gltf.h"
+#include "scene/media.h"
 #include "tests/gl/test_device.h"
 #include "tests/pipelines/known_scenes.h"
 
@@ -29,17 +32,20 @@ const Quality fine{.samples = 1,
                    .throughputCutoff = 1e-6,
                    .bilinearSmokeShadows = true};
 
-class LinkedListsGpu : public tests::GpuTest, public testing::WithParamInterface<std::string> {
+class LinkedListsGpuFrames : public tests::GpuTest {
+ protected:
+  Frame draw(const KnownScene& known, const Quality& quality) {
+    LinkedListsPipeline pipeline(device(), known.scene, known.media);
+    return pipeline.render(known.scene.cameras[0], width, height, quality);
+  }
+};
+
+class LinkedListsGpu : public LinkedListsGpuFrames, public testing::WithParamInterface<std::string> {
  protected:
   static KnownScene scene(const std::string& name) {
     for (KnownScene& known : tests::knownScenes())
       if (known.name == name) return known;
     throw std::out_of_range(name);
-  }
-
-  Frame draw(const KnownScene& known, const Quality& quality) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
-    return pipeline.render(known.scene.cameras[0], width, height, quality);
   }
 };
 
@@ -88,6 +94,82 @@ TEST_P(LinkedListsGpu, DrawsWhatTheReferenceDraws) {
   EXPECT_NEAR(found.meanRatio, 1.0, 0.001);
   EXPECT_EQ(frame.statistics.cutWalks, 0u);
 }
+
+TEST_F(LinkedListsGpuFrames, SamplesSmoothEdges) {
+  // Against 8 x 8 rays a pixel: four samples leave a fraction of the error of one.
+  // Without shadows: their edges are as smooth as the maps' texels.
+  KnownScene known = tests::smokeAndGlass();
+  for (scene::Light& light : known.scene.lights) light.castsShadow = false;
+  const image::Image reference = renderReference(
+      known.scene, known.scene.cameras[0], known.media,
+      {.width = width, .height = height, .samples = 8, .stepVoxels = 1, .shadowStepVoxels = 1});
+  Quality quality = fine;
+  const double rough = image::compare(draw(known, quality).radiance, reference).relativeRmse;
+  quality.samples = 4;
+  const Frame smooth = draw(known, quality);
+  const double smoothed = image::compare(smooth.radiance, reference).relativeRmse;
+  fmt::print("relative RMSE with 1 sample {:.4f}, with 4 {:.4f}, {} pixels split\n", rough, smoothed,
+             smooth.statistics.splitPixels);
+  EXPECT_LT(smoothed, 0.6 * rough);
+  EXPECT_GT(smooth.statistics.splitPixels, 0u);
+  EXPECT_LT(smooth.statistics.splitPixels, static_cast<size_t>(width * height / 4));
+}
+
+TEST_F(LinkedListsGpuFrames, FlatSurfacesAreNotSplit) {
+  Quality quality = fine;
+  quality.samples = 4;
+  EXPECT_EQ(draw(tests::planeUnderPointLight(), quality).statistics.splitPixels, 0u);
+}
+
+TEST_F(LinkedListsGpuFrames, AreTheSameBitsEveryTime) {
+  const KnownScene known = tests::smokeAndGlass();
+  Quality quality = fine;
+  quality.samples = 4;
+  quality.shadowResolution = 256;
+  const image::Image first = draw(known, quality).radiance;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(draw(known, quality).radiance.values, first.values);
+}
+
+TEST_F(LinkedListsGpuFrames, LongWalksGoOnInFurtherDispatches) {
+  // Steps so short that a ray does more work than one dispatch allows; the picture stays the same.
+  const KnownScene known = tests::paneBeforeSmoke();
+  Quality quality = fine;
+  quality.shadowResolution = 64;
+  quality.stepVoxels = 0.2;
+  const Frame whole = draw(known, quality);
+  quality.stepVoxels = 0.0005;
+  LinkedListsPipeline pipeline(device(), known.scene, known.media);
+  const Frame pieces = pipeline.render(known.scene.cameras[0], 16, 12, quality);
+  quality.stepVoxels = 0.2;
+  const Frame few = pipeline.render(known.scene.cameras[0], 16, 12, quality);
+  EXPECT_EQ(whole.statistics.resolveDispatches, 1);
+  EXPECT_GT(pieces.statistics.resolveDispatches, 1);
+  EXPECT_LT(image::compare(pieces.radiance, few.radiance).relativeRmse, 0.002);
+}
+
+// The folder that SFUMATO_TRUTH names holds scenes with pictures of an independent path tracer.
+class TruthGpu : public tests::GpuTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(TruthGpu, IsMetAtMediumAndHighQuality) {
+  const char* folder = std::getenv("SFUMATO_TRUTH");
+  if (folder == nullptr) GTEST_SKIP() << "SFUMATO_TRUTH names no folder of scenes with an outside answer";
+  const std::filesystem::path base = std::filesystem::path(folder) / GetParam();
+  const scene::Scene scene = scene::readGltf(base.string() + ".gltf");
+  const image::Image truth = image::readImage(base.string() + ".exr");
+  const auto media = scene::readMedia(scene);
+  LinkedListsPipeline pipeline(device(), scene, media);
+  for (const auto& [quality, bound] : {std::pair("medium", 0.015), std::pair("high", 0.012)}) {
+    const Frame frame =
+        pipeline.render(scene.cameras[0], truth.width * 5, truth.height * 5, qualityNamed(quality));
+    const image::Difference difference = image::compare(image::averageDown(frame.radiance, 5), truth);
+    fmt::print("{} {}: relative RMSE {:.5f}, mean ratio {:.5f}\n", GetParam(), quality,
+               difference.relativeRmse, difference.meanRatio);
+    EXPECT_LT(difference.relativeRmse, bound) << quality;
+    EXPECT_NEAR(difference.meanRatio, 1.0, 0.005) << quality;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TruthGpu, testing::Values("two_lights", "sun"));
 
 // GoogleTest takes letters, digits and underscores only.
 std::string testName(const testing::TestParamInfo<std::string>& info) {
