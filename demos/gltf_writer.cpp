@@ -100,7 +100,8 @@ size_t Gltf::addMaterial(const Material& material) {
         {"metallicFactor", 0},
         {"roughnessFactor", material.roughness}}}};
   if (material.alpha < 1) entry["alphaMode"] = "BLEND";
-  if (material.glass) entry["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
+  if (material.transmission > 0)
+    entry["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
   if (!material.picture.empty()) {
     const size_t image = add("images", {{"uri", material.picture}});
     entry["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", add("textures", {{"source", image}})}};

@@ -38,9 +38,9 @@ struct Material {
   glm::vec3 colour{1.f};
   float roughness = 0.9f;
   float alpha = 1;
-  bool glass = false;
-  std::string picture;    // path of the base colour's texture, relative to the glTF; empty: none
-  nlohmann::json extras;  // null: none
+  float transmission = 0;  // of the light that its alpha stops, what passes in its colour
+  std::string picture;     // path of the base colour's texture, relative to the glTF; empty: none
+  nlohmann::json extras;   // null: none
 };
 
 // A glTF file in the making; indices are as in the format.

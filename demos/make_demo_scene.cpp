@@ -49,7 +49,7 @@ void addWindow(Gltf& gltf, const json& placement) {
   constexpr int columns = 3, rows = 3;
   constexpr float pane = 0.34f, bar = 0.045f, sill = 1.42f;
   const auto glass = [](const char* name, const vec3& colour) {
-    return Material{name, colour, 0.1f, 1, true, {}, {}};
+    return Material{name, colour, 0.1f, 1, 1, {}, {}};
   };
   const Material panes[rows * columns] = {
       glass("ruby", {0.95f, 0.07f, 0.05f}),  glass("amber", {1.f, 0.6f, 0.08f}),

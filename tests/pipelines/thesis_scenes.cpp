@@ -77,6 +77,13 @@ Mesh cloth(float width, float height, float folds) {
   return mesh;
 }
 
+// Lets light of its colour through, and reflects it.
+Material fabric(const vec3& colour) {
+  Material material = veil(colour, 0.95f);
+  material.transmission = 0.6f;
+  return material;
+}
+
 Medium turnedBy(Medium medium, const glm::dmat4& worldFromMedium) {
   medium.worldFromIndex = worldFromMedium * medium.worldFromIndex;
   medium.grid.worldFromIndex = medium.worldFromIndex;
@@ -134,9 +141,9 @@ KnownScene flagsInSmoke() {
   stone.shadowSelf = false;
   add(scene, joined(box({-2.2f, 0, -0.7f}, {-1.9f, 1.6f, 0.7f}), box({-1.9f, 0, -0.7f}, {-1, 0.4f, 0.7f})),
       stone);
-  Material fabric = veil({0.2f, 0.7f, 0.4f}, 0.6f);
-  fabric.shadowSelf = false;
-  add(scene, cloth(1.4f, 1.5f, 3), fabric, glm::translate(glm::dmat4(1), glm::dvec3(1.3, 0.2, 0.3)));
+  Material shade = fabric({0.2f, 0.7f, 0.4f});
+  shade.shadowSelf = false;
+  add(scene, cloth(1.4f, 1.5f, 3), shade, glm::translate(glm::dmat4(1), glm::dvec3(1.3, 0.2, 0.3)));
   Material glass = pane({0.9f, 0.5f, 0.3f});
   glass.shadowOnce = true;
   glass.shadowRim = 0.5f;
@@ -161,7 +168,7 @@ KnownScene curtainsBeforeLamp() {
   const vec3 colours[] = {{0.8f, 0.15f, 0.1f}, {0.15f, 0.6f, 0.2f}, {0.15f, 0.25f, 0.8f}};
   for (int i = 0; i < 3; ++i) {
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), (i - 1) * 1.1, glm::dvec3(0, 1, 0));
-    add(scene, cloth(1.4f, 1.8f, 4), veil(colours[i], 0.6f), glm::translate(turned, glm::dvec3(0, 0, 1.3)));
+    add(scene, cloth(1.4f, 1.8f, 4), fabric(colours[i]), glm::translate(turned, glm::dvec3(0, 0, 1.3)));
   }
   scene.lights.push_back(pointLight({0, 1, 0}, {12, 12, 11}));
   scene.cameras.push_back(perspectiveCamera({1, 3.5, 6}, {0, 0.4, 1}, 0.7));
@@ -173,7 +180,7 @@ KnownScene curtainUnderSpot() {
   Scene& scene = known.scene;
   addFloor(scene, {0.6f, 0.6f, 0.6f}, 5);
   add(scene, quad({-5, 0, -2}, {10, 0, 0}, {0, 4, 0}), lambert({0.7f, 0.7f, 0.65f}));
-  add(scene, cloth(2, 2, 5), veil({0.85f, 0.3f, 0.1f}, 0.7f),
+  add(scene, cloth(2, 2, 5), fabric({0.85f, 0.3f, 0.1f}),
       glm::translate(glm::dmat4(1), glm::dvec3(0, 0.3, 0)));
   scene.lights.push_back(spotLight({1.5, 2.5, 4}, {0, 1.2, 0}, {90, 90, 85}, 0.25, 0.35));
   scene.cameras.push_back(perspectiveCamera({-2, 2, 5}, {0, 1, -0.8}, 0.7));
