@@ -34,7 +34,8 @@ class GeometryOnGpu : public tests::GpuTest {
  protected:
   image::Image draw(const Scene& scene) {
     LinkedListsPipeline pipeline(device(), scene, {});
-    return pipeline.render(scene.cameras[0], width, height, {.samples = 1, .shadowResolution = 1024}).radiance;
+    return pipeline.render(scene.cameras[0], width, height, {.samples = 1, .shadowResolution = 1024})
+        .radiance;
   }
 
   // Few pixels are off by more than 2 % of the mean plus 2 % of themselves: those at the edges of texels that
