@@ -108,7 +108,6 @@ Limits readLimits() {
       std::min({glInteger(GL_MAX_SAMPLES), glInteger(GL_MAX_INTEGER_SAMPLES),
                 glInteger(GL_MAX_COLOR_TEXTURE_SAMPLES), glInteger(GL_MAX_DEPTH_TEXTURE_SAMPLES)});
   glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &limits.timerBits);
-  limits.clipControl = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
   return limits;
 }
 
@@ -256,10 +255,6 @@ const Program& Device::program(const std::vector<std::string>& names, const Shad
   std::unique_ptr<Program>& entry = programs_[key];
   if (!entry) entry = std::make_unique<Program>(*this, names, defines);
   return *entry;
-}
-
-void Device::finish() {
-  glFinish();
 }
 
 }  // namespace sfumato::gl

@@ -42,7 +42,6 @@ struct Limits {
   int64_t textureBufferTexels = 0;
   int samples = 0;  // that every texture format can have
   int timerBits = 0;
-  bool clipControl = false;
 };
 
 // One EGL device (or platform display) and what it answered when it was asked for a 4.3 core context.
@@ -87,9 +86,6 @@ class Device {
 
   // For draws without attributes: a core profile draws nothing without a vertex array.
   unsigned emptyVertexArray() const { return emptyVertexArray_; }
-
-  // Waits until everything that was asked for is done.
-  void finish();
 
  private:
   friend std::vector<DeviceEntry> listDevices();

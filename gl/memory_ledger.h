@@ -12,7 +12,6 @@ class MemoryLedger {
   void add(const std::string& label, size_t bytes);
   void remove(const std::string& label, size_t bytes);
 
-  const std::map<std::string, size_t>& bytesByLabel() const { return bytesByLabel_; }  // what lives now
   const std::map<std::string, size_t>& peakBytesByLabel() const {
     return peakBytesByLabel_;
   }  // of each label alone

@@ -143,16 +143,6 @@ void Texture::bind(unsigned unit) const {
   glBindTexture(target_, name());
 }
 
-std::vector<float> Texture::readFloats() const {
-  std::vector<float> values(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) *
-                            static_cast<size_t>(size_.z));
-  GLint internal = 0;
-  glBindTexture(target_, name());
-  glGetTexLevelParameteriv(target_, 0, GL_TEXTURE_INTERNAL_FORMAT, &internal);
-  glGetTexImage(target_, 0, internal == GL_R32F ? GL_RED : GL_DEPTH_COMPONENT, GL_FLOAT, values.data());
-  return values;
-}
-
 BufferTexture::BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format) {
   const size_t texelBytes = format == BufferFormat::RGBA32F ? 16 : 12;
   const auto limit = static_cast<size_t>(device.limits().textureBufferTexels) * texelBytes;

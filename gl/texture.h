@@ -54,7 +54,6 @@ class Texture {
   unsigned name() const { return object_.name(); }
   glm::ivec3 size() const { return size_; }
   void bind(unsigned unit) const;
-  std::vector<float> readFloats() const;  // R32F and Depth32F, bottom row first
 
  private:
   Object<deleteTexture> object_;

@@ -59,7 +59,6 @@ LightLists::LightLists(gl::Device& device, const LightListInputs& inputs)
   const glm::ivec2 cells(cellsAlong(inputs.width), cellsAlong(inputs.height));
   shared::LightPassParams params{};
   params.cells = {cells.x, cells.y, cellSide, directional_};
-  params.counts = {directional_, static_cast<int>(order_.size()), 0, 0};
   gl::Buffer passBlock(device, "light list pass", sizeof params);
   passBlock.writeValue(params);
 

@@ -13,8 +13,7 @@ struct LightData {
 
 // Of the passes that build and read the light lists.
 struct LightPassParams {
-  ivec4 cells;   // x, y: cells across and down; z: pixels a cell's side; w: first light of the draw
-  ivec4 counts;  // x: directional lights, y: all lights
+  ivec4 cells;  // x, y: cells across and down; z: pixels a cell's side; w: first light of the draw
 };
 
 SHARED_END

@@ -15,6 +15,7 @@
 #include "scene/gltf.h"
 #include "shaders/shared/bindings.h"
 #include "tests/gl/test_device.h"
+#include "tests/pipelines/frame_errors.h"
 #include "tests/pipelines/known_scenes.h"
 #include "tests/scene/gltf_moving.h"
 
@@ -44,18 +45,13 @@ class GeometryOnGpu : public tests::GpuTest {
     const image::Image image = draw(scene);
     const image::Image reference =
         renderReference(scene, scene.cameras[0], {}, {.width = width, .height = height});
-    const image::Difference difference = image::compare(image, reference);
     const double mean = std::accumulate(reference.values.begin(), reference.values.end(), 0.0) /
                         static_cast<double>(reference.values.size());
-    size_t failing = 0;
-    for (size_t i = 0; i < image.values.size(); ++i) {
-      const double off = std::abs(double(image.values[i]) - double(reference.values[i]));
-      failing += !(off <= 0.02 * (mean + std::abs(double(reference.values[i]))));
-    }
-    const double fraction = static_cast<double>(failing) / static_cast<double>(image.values.size());
-    fmt::print("failing {:.4f}, mean ratio {:.5f}, mean {:.3f}\n", fraction, difference.meanRatio, mean);
-    EXPECT_LT(fraction, 0.005);
-    EXPECT_NEAR(difference.meanRatio, 1.0, 0.002);
+    const PixelErrors found = errors(image, reference);
+    fmt::print("failing {:.4f}, mean ratio {:.5f}, mean {:.3f}\n", found.failingFraction, found.meanRatio,
+               mean);
+    EXPECT_LT(found.failingFraction, 0.005);
+    EXPECT_NEAR(found.meanRatio, 1.0, 0.002);
     EXPECT_GT(mean, 0.01) << "there is something to compare";
   }
 };

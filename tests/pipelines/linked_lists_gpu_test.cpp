@@ -14,6 +14,7 @@
 #include "scene/gltf.h"
 #include "scene/media.h"
 #include "tests/gl/test_device.h"
+#include "tests/pipelines/frame_errors.h"
 #include "tests/pipelines/known_scenes.h"
 
 namespace sfumato::pipelines {
@@ -23,14 +24,6 @@ using tests::KnownScene;
 
 constexpr int width = 96;
 constexpr int height = 72;
-
-// Fine enough that what is left are the pixels at edges of shadows, where the map's texels show.
-const Quality fine{.samples = 1,
-                   .shadowResolution = 1024,
-                   .stepVoxels = 0.5,
-                   .shadowError = 1.0 / 4096,
-                   .throughputCutoff = 1e-6,
-                   .bilinearSmokeShadows = true};
 
 class LinkedListsGpuFrames : public tests::GpuTest {
  protected:
@@ -53,30 +46,6 @@ std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
   for (const KnownScene& known : tests::knownScenes()) names.push_back(known.name);
   return names;
-}
-
-// With SFUMATO_TEST_OUTPUT: the pictures, to be looked at.
-void keep(const std::string& name, const image::Image& image) {
-  if (const char* folder = std::getenv("SFUMATO_TEST_OUTPUT"))
-    image::writeImage(std::string(folder) + "/" + name + ".exr", image, {});
-}
-
-struct PixelErrors {
-  double failingFraction = 0;  // of pixels off by more than 2 % of the mean plus 2 % of themselves
-  double meanRatio = 0;
-  double relativeRmse = 0;
-};
-
-PixelErrors errors(const image::Image& image, const image::Image& reference) {
-  const image::Difference difference = image::compare(image, reference);
-  const double mean = difference.rmse / difference.relativeRmse;
-  size_t failing = 0;
-  for (size_t i = 0; i < image.values.size(); ++i) {
-    const double off = std::abs(double(image.values[i]) - double(reference.values[i]));
-    if (!(off <= 0.02 * (mean + std::abs(double(reference.values[i]))))) ++failing;
-  }
-  return {static_cast<double>(failing) / static_cast<double>(image.values.size()), difference.meanRatio,
-          difference.relativeRmse};
 }
 
 TEST_P(LinkedListsGpu, DrawsWhatTheReferenceDraws) {
