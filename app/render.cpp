@@ -1,6 +1,5 @@
 // `sfumato render`: files to a scene, the scene to a frame, the frame to files.
 #include <fmt/format.h>
-#include <strings.h>
 
 #include <cmath>
 #include <filesystem>
@@ -106,10 +105,9 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   return quality;
 }
 
-image::Image exposed(image::Image image, double stops) {
+void expose(image::Image& image, double stops) {
   const auto factor = static_cast<float>(std::exp2(stops));
   for (float& value : image.values) value *= factor;
-  return image;
 }
 
 std::string numbers(const glm::dvec3& v) {
@@ -204,13 +202,18 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
   if (!options.statistics.empty()) base::print("output   {}\n", options.statistics);
 }
 
-void writeOutputs(const RenderOptions& options, const image::Image& radiance,
-                  const image::Metadata& settings) {
-  for (const std::string& output : options.outputs) {
-    const bool display = strcasecmp(std::filesystem::path(output).extension().c_str(), ".png") == 0;
-    image::writeImage(output, display ? exposed(radiance, options.exposureStops) : radiance, settings);
-    base::note("wrote {}", output);
-  }
+// Radiance first; then the image is exposed for the pictures in its own place, as it may be large.
+void writeOutputs(const RenderOptions& options, image::Image radiance, const image::Metadata& settings) {
+  const auto write = [&](bool isRadiance) {
+    for (const std::string& output : options.outputs) {
+      if (image::holdsLayers(output) != isRadiance) continue;
+      image::writeImage(output, radiance, settings);
+      base::note("wrote {}", output);
+    }
+  };
+  write(true);
+  expose(radiance, options.exposureStops);
+  write(false);
 }
 
 // The frame by the CPU reference, --repeat times.
@@ -262,9 +265,9 @@ int render(const RenderOptions& options) {
     printPlan(options, shot);
     return 0;
   }
-  const Drawn drawn =
-      options.reference ? drawReference(options, shot, start) : drawOnGpu(options, shot, start);
-  writeOutputs(options, drawn.radiance, metadata(options, shot, drawn.device));
+  Drawn drawn = options.reference ? drawReference(options, shot, start) : drawOnGpu(options, shot, start);
+  const image::Metadata settings = metadata(options, shot, drawn.device);
+  writeOutputs(options, std::move(drawn.radiance), settings);
   if (!options.statistics.empty()) {
     base::writeFile(options.statistics, drawn.statistics);
     base::note("wrote {}", options.statistics);
