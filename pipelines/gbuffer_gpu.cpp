@@ -17,18 +17,28 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
       gl::Texture(device, "G-buffer surface 1",
                   {.format = gl::Format::RGBA32UI, .size = size, .samples = samples}),
       gl::Texture(device, "G-buffer depth", {.format = gl::Format::R32F, .size = size, .samples = samples}),
+      std::nullopt,
       tile,
       {}};
   const gl::Texture depthTest(device, "depth test",
                               {.format = gl::Format::Depth32F, .size = size, .samples = samples});
-  const gl::Texture* colours[] = {&result.surface0, &result.surface1, &result.depth};
+  std::vector<const gl::Texture*> colours = {&result.surface0, &result.surface1, &result.depth};
+  gl::ShaderDefines defines;
+  if (inputs.baseColour) {
+    result.baseColour.emplace(
+        device, "G-buffer base colour",
+        gl::TextureDescription{.format = gl::Format::RGBA16F, .size = size, .samples = samples});
+    colours.push_back(&*result.baseColour);
+    defines.emplace_back("BASE_COLOUR", "1");
+  }
   const gl::Framebuffer target(colours, &depthTest);
   target.clearColour(0, glm::uvec4(0));
   target.clearColour(1, glm::uvec4(0));
   target.clearColour(2, glm::vec4(static_cast<float>(NOTHING_SEEN)));
+  if (inputs.baseColour) target.clearColour(3, glm::vec4(0.f));
   target.clearDepth(1.f);
   inputs.view.bindUniform(UNIFORM_VIEW);
-  gl::setDrawState({.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}),
+  gl::setDrawState({.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}, defines),
                     .target = &target,
                     .viewport = {-tile.x, -tile.y, inputs.width, inputs.height},
                     .depthTest = true});
