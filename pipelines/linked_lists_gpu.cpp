@@ -68,8 +68,8 @@ void bindRayInputs(const ResolveInputs& inputs) {
 
 shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   shared::ResolveParams params{};
-  const double step = inputs.volumes.empty() ? 1.0 : inputs.quality.stepVoxels * inputs.volumes.voxelSize();
-  params.march = {static_cast<float>(step), static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
+  params.march = {static_cast<float>(inputs.quality.stepVoxels),
+                  static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
   params.options = {1, inputs.quality.bilinearSmokeShadows ? 1 : 0, inputs.lights.directionalLights(), 0};
   glm::vec2 positions[MAX_SAMPLES] = {};
   std::copy(inputs.gbuffer.samplePositions.begin(), inputs.gbuffer.samplePositions.end(), positions);
@@ -319,14 +319,13 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
-  const double step = volumes_.empty() ? 1.0 : quality.stepVoxels * volumes_.voxelSize();
   return deepshadow::Maps(device_, {.lights = scene_.lights,
                                     .casters = casters,
                                     .volumes = volumes_,
                                     .receivers = receivers,
                                     .castingPoints = castingPoints,
                                     .resolution = quality.shadowResolution,
-                                    .stepMetres = step,
+                                    .stepVoxels = quality.stepVoxels,
                                     .error = quality.shadowError});
 }
 

@@ -166,15 +166,6 @@ vec3 scattered(Steps steps, PixelRay ray) {
 }
 #endif
 
-// Where the step that begins at `depth` ends. Steps stand at multiples of the stride from where the ray enters the media
-// and are cut at `limit` (a surface), so that adding a pane does not move them.
-float nextStep(float depth, float entry, float stride, float limit) {
-  float index = floor((depth - entry) / stride + 1e-3);
-  float to = min(entry + (index + 1.0) * stride, limit);
-  if (to <= depth) to = min(depth + stride, limit);
-  return to > depth ? to : limit;  // a stride below the rounding of the depth
-}
-
 // Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
 struct RayPlace {
   ivec2 pixel;  // of the image
@@ -230,8 +221,7 @@ void main() {
 
 #ifdef SMOKE
   float metresPerDepth = length(ray.perDepth);
-  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd));
-  float stride = params.march.x / metresPerDepth;
+  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
 #endif
 
   bool walking = true;
@@ -253,7 +243,7 @@ void main() {
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
     while (depth < limit && steps.count < STEPS && work < uint(RESOLVE_WORK_LIMIT)) {
       ++work;
-      float to = nextStep(depth, media.rangeOfAll.x, stride, limit);
+      float to = stepEnd(media, depth, limit);
       float middle = 0.5 * (depth + to);
       float scattered[VOLUME_COUNT];
       float sigmaT = 0.0;
