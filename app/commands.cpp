@@ -156,8 +156,8 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->type_name("STOPS")
       ->check(between(-30.0, 30.0));
   add("--aov", options.aovs,
-      "Layers of the .exr: " + fmt::format("{}", fmt::join(pipelines::aovNames(), ", ")) +
-          "; counts beside a .png as heat maps")
+      fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
+                  fmt::join(pipelines::aovNames(), ", ")))
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false)

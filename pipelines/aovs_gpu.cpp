@@ -42,6 +42,7 @@ void drawAovs(gl::Device& device, const AovInputs& inputs, AovImages& images) {
   gl::Buffer passBlock(device, "AOV pass", sizeof(shared::ResolveParams));
   shared::ResolveParams params{};
   params.options.z = inputs.lights.directionalLights();
+  setSamples(params, inputs.gbuffer);
   passBlock.writeValue(params);
 
   inputs.view.bindUniform(UNIFORM_VIEW);

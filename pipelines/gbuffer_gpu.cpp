@@ -1,9 +1,10 @@
 #include "pipelines/gbuffer_gpu.h"
 
+#include <algorithm>
+
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/resolve.h"
 
 namespace sfumato::pipelines {
 
@@ -47,6 +48,13 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   // A driver may give more than were asked for; any of them will do.
   if (result.samplePositions.size() > MAX_SAMPLES) result.samplePositions.resize(MAX_SAMPLES);
   return result;
+}
+
+void setSamples(shared::ResolveParams& params, const GBuffer& gbuffer) {
+  glm::vec2 positions[MAX_SAMPLES] = {};
+  std::copy(gbuffer.samplePositions.begin(), gbuffer.samplePositions.end(), positions);
+  params.samples01 = glm::vec4(positions[0], positions[1]);
+  params.samples23 = glm::vec4(positions[2], positions[3]);
 }
 
 }  // namespace sfumato::pipelines

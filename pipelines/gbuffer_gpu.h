@@ -10,6 +10,7 @@
 #include "gl/texture.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/tiles.h"
+#include "shaders/shared/resolve.h"
 
 namespace sfumato::pipelines {
 
@@ -35,5 +36,8 @@ struct GBufferInputs {
 };
 
 GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs);
+
+// Tells a pass where the samples of a pixel are.
+void setSamples(shared::ResolveParams& params, const GBuffer& gbuffer);
 
 }  // namespace sfumato::pipelines

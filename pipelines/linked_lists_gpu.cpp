@@ -71,10 +71,7 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   params.march = {static_cast<float>(inputs.quality.stepVoxels),
                   static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
   params.options = {1, inputs.quality.bilinearSmokeShadows ? 1 : 0, inputs.lights.directionalLights(), 0};
-  glm::vec2 positions[MAX_SAMPLES] = {};
-  std::copy(inputs.gbuffer.samplePositions.begin(), inputs.gbuffer.samplePositions.end(), positions);
-  params.samples01 = glm::vec4(positions[0], positions[1]);
-  params.samples23 = glm::vec4(positions[2], positions[3]);
+  setSamples(params, inputs.gbuffer);
   return params;
 }
 

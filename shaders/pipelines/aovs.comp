@@ -47,16 +47,33 @@ uint nodesOfTexel(uint number, vec3 p) {
   return knotCount(shadowTexel(texelNumber(face, ivec2(floor(place)))));
 }
 
+// Depth of a sample's surface where the sample is; G-buffers hold it for the pixel's centre.
+float depthAtSample(ivec2 pixel, vec2 centre, float depth, int number) {
+#if SAMPLES > 1
+  if (depth < NOTHING_SEEN) {
+    uvec4 words = texelFetch(opaqueSurface0, pixel - view.tile.xy, number);
+    vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(words.y));
+    vec2 there = imagePlane(view, vec2(pixel) + samplePosition(params, number));
+    return depthOnPlane(view, normal, centre, depth, there);
+  }
+#endif
+  return depth;
+}
+
 void main() {
   ivec2 pixel = view.window.xy + ivec2(gl_GlobalInvocationID.xy);
   if (!hasList(view, pixel)) return;
   ivec2 texel = pixel - view.tile.xy;
-  float depth = NOTHING_SEEN;
+  vec2 plane = imagePlane(view, vec2(pixel) + 0.5);
+  float depth = NOTHING_SEEN;  // at the pixel's centre, of the surface that is nearest where its sample is
+  float least = NOTHING_SEEN;
   int nearest = 0;
   vec3 albedo = vec3(0.0);
   for (int i = 0; i < SAMPLES; ++i) {
     float seen = texelFetch(opaqueDepth, texel, i).r;
-    if (seen < depth) {
+    float there = depthAtSample(pixel, plane, seen, i);
+    if (there < least) {
+      least = there;
       depth = seen;
       nearest = i;
     }
@@ -67,7 +84,6 @@ void main() {
   bool opaque = depth < NOTHING_SEEN;
   vec3 normal = opaque ? unitFromOctahedral(unpackSnorm2x16(texelFetch(opaqueSurface0, texel, nearest).x)) : vec3(0.0);
 
-  vec2 plane = imagePlane(view, vec2(pixel) + 0.5);
   vec3 pView = view.halfExtent.z != 0.0 ? vec3(plane, -depth) : depth * vec3(plane, -1.0);
   vec3 p = opaque ? (view.worldFromView * vec4(pView, 1.0)).xyz : vec3(0.0);
   uint directional = uint(params.options.z);

@@ -420,6 +420,47 @@ TEST_F(CommandLineRender, WritesEveryOutputAndNothingElse) {
   }
 }
 
+TEST_F(CommandLineRender, WritesAovsAsLayersAndHeatMaps) {
+  const auto before = listing(folder.path());
+  render({"scene.gltf", "-o", "out.exr", "-o", "out.png", "--aov", "depth,normal", "--aov",
+          "lights,fragments,shadow-nodes,depth"});
+  EXPECT_EQ(newNames(before), (std::set<std::string>{"out.exr", "out.png", "out.lights.png",
+                                                     "out.fragments.png", "out.shadow-nodes.png"}));
+  render({"scene.gltf", "-o", "plain.exr"});
+  EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
+  // The middle of the picture looks at (0.3, 0.3, 0) from 2 m away.
+  const image::Layer depth = image::readLayer(path("out.exr"), "depth");
+  EXPECT_EQ(depth.channels, std::vector<std::string>{"Z"});
+  EXPECT_NEAR(*depth.image.pixel(32, 24), 2, 1e-5);
+  EXPECT_TRUE(std::isinf(*depth.image.pixel(0, 0)));
+  EXPECT_NEAR(image::readLayer(path("out.exr"), "normal").image.pixel(32, 24)[2], 1, 1e-4);
+  EXPECT_EQ(*image::readLayer(path("out.exr"), "lights").image.pixel(32, 24), 1);
+  EXPECT_EQ(picture("out.lights.png").width, 64);
+  EXPECT_NE(contentOf(path("out.lights.png")).find("0 to 1"), std::string::npos);
+  EXPECT_EQ(run({"compare", "out.exr", "plain.exr"}).exitCode, 0);
+}
+
+TEST_F(CommandLineGpu, NamesTheAovThatCannotBe) {
+  expectErrors(
+      folder.path(),
+      {
+          {{"render", "scene.gltf", "-o", "out.exr", "--aov", "depth,foo"},
+           2,
+           "--aov: \"foo\" is none of depth, normal, albedo, transmittance, lights, fragments, "
+           "shadow-nodes"},
+          {{"render", "scene.gltf", "-o", "out.exr", "--aov", ""}, 2, "--aov: \"\" is none of depth"},
+          {{"render", "scene.gltf", "-o", "out.png", "--aov", "lights,depth"},
+           2,
+           "--aov depth: only an .exr holds it"},
+          {{"render", "scene.gltf", "-o", "a.png", "-o", "a.lights.png", "--aov", "lights"},
+           2,
+           "a.lights.png: is named twice"},
+          {{"render", "scene.gltf", "-o", "out.exr", "--reference", "--aov", "shadow-nodes"},
+           2,
+           "--aov shadow-nodes: is of lists that --reference does not have"},
+      });
+}
+
 TEST_F(CommandLineRender, DrawsOnePixel) {
   render({"scene.gltf", "-o", "out.exr", "-o", "out.png"}, "1x1");
   EXPECT_EQ(picture("out.exr").values.size(), 3u);
