@@ -1,9 +1,12 @@
 #include "app/commands.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "app/validators.h"
 #include "base/version.h"
+#include "pipelines/aovs.h"
 #include "pipelines/quality.h"
 
 namespace sfumato::app {
@@ -141,7 +144,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
 }
 
 void addOutput(CLI::App& command, RenderOptions& options) {
-  const auto add = [&](const char* name, auto& value, const char* help) {
+  const auto add = [&](const char* name, auto& value, const std::string& help) {
     return command.add_option(name, value, help)->group("Output");
   };
   add("-o,--output", options.outputs,
@@ -152,6 +155,13 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   add("--exposure", options.exposureStops, "Brighten the .png: -30 to 30, else 0")
       ->type_name("STOPS")
       ->check(between(-30.0, 30.0));
+  add("--aov", options.aovs,
+      fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
+                  fmt::join(pipelines::aovNames(), ", ")))
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(oneOf(pipelines::aovNames()));
   add("--stats", options.statistics, "Write times, bytes and list figures as JSON")
       ->type_name("FILE.json")
       ->check(fileName());

@@ -38,8 +38,9 @@ struct RenderOptions {
   bool reference = false;  // drawn by the CPU reference
   int samples = 1;         // a side of the pixel, of the reference
   double exposureStops = 0;
-  std::string statistics;  // path, empty: none
-  int repeat = 1;          // frames; the last one is written
+  std::vector<std::string> aovs;  // see pipelines/aovs.h
+  std::string statistics;         // path, empty: none
+  int repeat = 1;                 // frames; the last one is written
   bool dryRun = false;
 };
 

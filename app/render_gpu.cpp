@@ -19,7 +19,7 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& 
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
     frame = pipeline.render(shot.camera, options.width, options.height, shot.quality,
-                            {.onTile = [&] { progress.advance(); }});
+                            {.aovs = shot.aovs, .onTile = [&] { progress.advance(); }});
     seconds.push_back(secondsSince(start));
   }
   return frame;
@@ -53,7 +53,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   warnOfProblems(device, frame.statistics);
-  return {std::move(frame.radiance), device.names().renderer,
+  return {std::move(frame.radiance), std::move(frame.aovs), device.names().renderer,
           statisticsText(device, frame.statistics, times)};
 }
 

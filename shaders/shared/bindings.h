@@ -23,6 +23,7 @@
 #define STORAGE_RAYS 14         // RayState[]
 #define STORAGE_COUNTERS 15       // the pass's own counters
 #define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
+#define STORAGE_AOVS 17           // AovPixel[]
 
 // Texture units
 #define TEXTURE_BASE_COLOUR 0
