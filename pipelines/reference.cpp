@@ -299,10 +299,16 @@ class Tracer {
     double voxel = scene::infinity;
     for (const Medium* medium : media) voxel = std::min(voxel, volumes::voxelSize(medium->worldFromIndex));
     const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * voxel));
-    const double length = (tMax - tMin) / steps;
+    const double longest = (tMax - tMin) / steps;
+    const double shortest = longest / 256;
     std::vector<double> extinctions;  // of each medium
-    for (double step = 0; step < steps && !isNegligible(transmittance); ++step) {
-      const glm::dvec3 p = ray.at(tMin + (step + 0.5) * length);
+    double t = tMin;
+    while (t < tMax && !isNegligible(transmittance)) {
+      // Close to a lamp its irradiance changes within a voxel.
+      const double length =
+          std::min(std::clamp(0.1 * distanceToLamp(ray.at(t + 0.5 * shortest)), shortest, longest), tMax - t);
+      const glm::dvec3 p = ray.at(t + 0.5 * length);
+      t += length;
       extinctions.clear();
       double extinction = 0;
       for (const Medium* medium : media) {
@@ -315,6 +321,15 @@ class Tracer {
           transmittance * (1 - passing) / extinction * scattered(media, extinctions, p, ray.direction);
       transmittance *= passing;
     }
+  }
+
+  // To the nearest light that stands somewhere.
+  double distanceToLamp(const glm::dvec3& pWorld) const {
+    double nearest = scene::infinity;
+    for (const Light& light : scene_.lights)
+      if (light.type != lights::LightType::Directional)
+        nearest = std::min(nearest, glm::distance(light.position, pWorld));
+    return nearest;
   }
 
   // Light scattered at a point of the media to where the ray comes from, per metre.

@@ -189,6 +189,41 @@ TEST_F(LinkedListsGpuFrames, WindowsAreHalvedUntilTheirListsFit) {
     ASSERT_NEAR(frame.radiance.values[i], seen * static_cast<double>(i % 3 + 1), 1e-5) << i;
 }
 
+// In thin homogeneous smoke the light of a lamp grows without bound towards it, and its mean over a pixel
+// does not: the integral over the square of the pixel, cut finely, of the ray's, told as an angle about the
+// lamp.
+TEST_F(LinkedListsGpuFrames, LampsInSmokeShineAsTheirIntegral) {
+  constexpr double sigmaT = 1e-3, g = 0.5, intensity = 1000, pixel = 1.0 / height;
+  KnownScene known;
+  known.media.push_back(tests::block({-1, -1, -1}, {1, 1, 1}, {16, 16, 16}, sigmaT, {1, 1, 1}, g));
+  const glm::dvec2 lamp(0.3 * pixel, -1.1 * pixel);
+  known.scene.lights.push_back(tests::pointLight({lamp, 0}, glm::dvec3(intensity)));
+  known.scene.cameras.push_back(tests::orthographicCamera({0, 0, 2}, {0, 0, 0}, 0.5));
+  const Frame frame = draw(known, fine);
+
+  const auto alongRay = [&](double passed) {
+    constexpr int cuts = 64;
+    const double widest = std::atan(1 / passed);
+    double sum = 0;
+    for (int i = 0; i < cuts; ++i) {
+      const double cosine = std::sin(widest * (2 * (i + 0.5) / cuts - 1));
+      sum += (1 - g * g) / (4 * std::numbers::pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+    }
+    return sigmaT * intensity * sum * 2 * widest / (cuts * passed);
+  };
+  for (int y = height / 2 - 4; y < height / 2 + 4; ++y)
+    for (int x = width / 2 - 4; x < width / 2 + 4; ++x) {
+      constexpr int side = 32;
+      double expected = 0;
+      for (int i = 0; i < side * side; ++i) {
+        const glm::dvec2 within((i % side + 0.5) / side, (i / side + 0.5) / side);
+        const glm::dvec2 p = pixel * (glm::dvec2(x - width / 2, height / 2 - y - 1) + within);
+        expected += alongRay(glm::distance(p, lamp)) / (side * side);
+      }
+      EXPECT_NEAR(frame.radiance.pixel(x, y)[0], expected, 0.015 * expected) << x << " " << y;
+    }
+}
+
 // The folder that SFUMATO_TRUTH names holds scenes with pictures of an independent path tracer.
 class TruthGpu : public tests::GpuTest, public testing::WithParamInterface<const char*> {};
 
