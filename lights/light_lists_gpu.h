@@ -12,7 +12,7 @@
 #include "gl/device.h"
 #include "gl/program.h"
 #include "lights/light.h"
-#include "lists/linked_lists_gpu.h"
+#include "lists/lists_gpu.h"
 
 namespace sfumato::lights {
 
@@ -30,21 +30,22 @@ struct LightListInputs {
   int height = 0;
   // Pixels whose cells get lists: x, y from the bottom, width, height, as in the view; none: the whole image.
   std::optional<glm::ivec4> window;
+  lists::ListOptions lists{};
 };
 
 class LightLists {
  public:
   static constexpr int cellSide = 4;  // pixels; shaders/lights/light_lists.glsl has the same
 
-  // Uploads the lights and builds the lists. Costs 8 bytes a cell and 16 a node. Throws Memory when they do
-  // not fit the device.
+  // Uploads the lights and builds the lists. Costs 8 bytes a cell and 12 a node, more while some strategies
+  // build (lists/lists_gpu.h). Throws Memory when they do not fit budget or device.
   LightLists(gl::Device& device, const LightListInputs& inputs);
   // The same, but nothing where the nodes do not fit: the caller can try a smaller window.
   static std::optional<LightLists> tryBuild(gl::Device& device, const LightListInputs& inputs);
 
   int directionalLights() const { return directional_; }
   const lists::ListStatistics& statistics() const { return statistics_; }
-  const lists::LinkedLists& lists() const { return lists_; }
+  const lists::Lists& lists() const { return lists_; }
   // Scene indices of the lights by the numbers that the lists hold.
   const std::vector<int>& order() const { return order_; }
   // For shaders that include shaders/lights/light_lists.glsl.
@@ -60,13 +61,14 @@ class LightLists {
   };
   static Cells cellsOf(const LightListInputs& inputs);
   LightLists(gl::Device& device, const LightListInputs& inputs, const Cells& cells);  // lists are still empty
-  void insert(gl::Device& device, const LightListInputs& inputs, const Cells& cells) const;
+  void store(gl::Device& device, const LightListInputs& inputs, const Cells& cells,
+             const lists::Pass& pass) const;
 
   std::vector<int> order_;
   int directional_ = 0;
   gl::Buffer lights_;
   gl::Buffer passBlock_;
-  lists::LinkedLists lists_;
+  lists::Lists lists_;
   lists::ListStatistics statistics_;
 };
 

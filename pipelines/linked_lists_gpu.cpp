@@ -41,7 +41,7 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
 struct ResolveInputs {
   const gl::Buffer& view;
   const GBuffer& gbuffer;
-  const lists::LinkedLists& surfaces;
+  const lists::Lists& surfaces;
   const lights::LightLists& lights;
   const deepshadow::Maps& shadows;
   const volumes::VolumesGpu& volumes;
@@ -58,7 +58,7 @@ struct Split {
 
 void bindRayInputs(const ResolveInputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
-  inputs.surfaces.bind(STORAGE_OLD_HEADS, STORAGE_OLD_LINKS, STORAGE_OLD_PAYLOADS);
+  inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   inputs.gbuffer.surface0.bind(TEXTURE_SURFACE_0);
   inputs.gbuffer.surface1.bind(TEXTURE_SURFACE_1);

@@ -91,7 +91,7 @@ const std::map<std::string, Layout>& cppLayouts() {
        {sizeof(shared::RayState),
         {AT(RayState, radianceR), AT(RayState, radianceG), AT(RayState, radianceB), AT(RayState, depth),
          AT(RayState, throughputR), AT(RayState, throughputG), AT(RayState, throughputB),
-         AT(RayState, node)}}},
+         AT(RayState, surfaces)}}},
       {"ResolveParams",
        {sizeof(shared::ResolveParams),
         {AT(ResolveParams, march), AT(ResolveParams, options), AT(ResolveParams, samples01),
