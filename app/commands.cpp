@@ -6,6 +6,7 @@
 
 #include "app/validators.h"
 #include "base/version.h"
+#include "lists/strategy.h"
 #include "pipelines/aovs.h"
 #include "pipelines/quality.h"
 
@@ -132,6 +133,15 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Texels a side of a deep shadow map: 32 to 16384, else by --quality")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
+  add("--lists", options.lists,
+      "Build lists in this way: spinlock, lockfree, append or count; else what suits")
+      ->type_name("NAME")
+      ->check(oneOf(lists::strategyNames()));
+  add("--list-memory", options.listMemory, "Most that the lists at one time may take, else what there is")
+      ->type_name("BYTES|64K|256M|2G");
+  add("--on-overflow", options.onOverflow, "What then: grow, window (in parts, slower) or error; else window")
+      ->type_name("NAME")
+      ->check(oneOf(lists::onOverflowNames()));
   CLI::Option* reference =
       command
           .add_flag("--reference", options.reference,
