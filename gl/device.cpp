@@ -99,11 +99,21 @@ Limits readLimits() {
   limits.storageBindings = glInteger(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS);
   limits.computeStorageBlocks = glInteger(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
   limits.fragmentStorageBlocks = glInteger(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS);
+  limits.vertexStorageBlocks = glInteger(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS);
+  limits.geometryStorageBlocks = glInteger(GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS);
+  limits.vertexImages = glInteger(GL_MAX_VERTEX_IMAGE_UNIFORMS);
+  limits.geometryImages = glInteger(GL_MAX_GEOMETRY_IMAGE_UNIFORMS);
+  limits.vertexCounters = glInteger(GL_MAX_VERTEX_ATOMIC_COUNTERS);
+  limits.geometryCounters = glInteger(GL_MAX_GEOMETRY_ATOMIC_COUNTERS);
   limits.texture2dSize = glInteger(GL_MAX_TEXTURE_SIZE);
   limits.texture3dSize = glInteger(GL_MAX_3D_TEXTURE_SIZE);
   limits.textureBufferTexels = glInteger<int64_t>(GL_MAX_TEXTURE_BUFFER_SIZE);
   limits.framebufferSize =
       std::min(glInteger(GL_MAX_FRAMEBUFFER_WIDTH), glInteger(GL_MAX_FRAMEBUFFER_HEIGHT));
+  limits.framebufferLayers = glInteger(GL_MAX_FRAMEBUFFER_LAYERS);
+  GLint viewport[2] = {0, 0};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  limits.viewportSize = std::min(viewport[0], viewport[1]);
   limits.samples =
       std::min({glInteger(GL_MAX_SAMPLES), glInteger(GL_MAX_INTEGER_SAMPLES),
                 glInteger(GL_MAX_COLOR_TEXTURE_SAMPLES), glInteger(GL_MAX_DEPTH_TEXTURE_SAMPLES)});

@@ -37,9 +37,17 @@ struct Limits {
   int storageBindings = 0;
   int computeStorageBlocks = 0;
   int fragmentStorageBlocks = 0;
+  int vertexStorageBlocks = 0;
+  int geometryStorageBlocks = 0;
+  int vertexImages = 0;
+  int geometryImages = 0;
+  int vertexCounters = 0;
+  int geometryCounters = 0;
   int texture2dSize = 0;
   int texture3dSize = 0;
   int framebufferSize = 0;
+  int framebufferLayers = 0;
+  int viewportSize = 0;
   int64_t textureBufferTexels = 0;
   int samples = 0;  // that every texture format can have
   int timerBits = 0;
