@@ -34,6 +34,7 @@ std::vector<Check> allChecks() {
   add(contextChecks());
   add(atomicsChecks());
   add(listsChecks());
+  add(loopsChecks());
   return all;
 }
 

@@ -64,6 +64,7 @@ struct Check {
 std::vector<Check> contextChecks();
 std::vector<Check> atomicsChecks();
 std::vector<Check> listsChecks();
+std::vector<Check> loopsChecks();
 
 // These end their process as a bad driver would, to test what runs the checks. Only a name asks for them.
 std::vector<Check> faultyChecks();
