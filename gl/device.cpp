@@ -248,6 +248,10 @@ Device::Device(const DeviceOptions& options)
 
 Device::~Device() = default;
 
+bool Device::has(std::string_view extension) const {
+  return epoxy_has_gl_extension(std::string(extension).c_str());
+}
+
 const Program& Device::program(const std::vector<std::string>& names, const ShaderDefines& defines) {
   std::string key;
   for (const std::string& name : names) key += name + '\n';

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,9 @@ class Device {
   const DeviceNames& names() const { return names_; }
   const Limits& limits() const { return limits_; }
   const std::filesystem::path& shaderDir() const { return shaderDir_; }
+
+  // Whether the driver has this extension, "GL_…".
+  bool has(std::string_view extension) const;
 
   MemoryLedger& memory() { return memory_; }
   Profiler& profiler() { return profiler_; }

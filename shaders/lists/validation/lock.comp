@@ -1,0 +1,8 @@
+// COUNT invocations, each once in the section of LOCK_INDEX (an expression of `id`).
+#include "shaders/lists/validation/lock.glsl"
+#include "shaders/shared/linear_id.glsl"
+
+void main() {
+  uint id = linearId();
+  if (id < COUNT) lockOnce(LOCK_INDEX, id);
+}
