@@ -96,4 +96,8 @@ void Buffer::bindUniform(unsigned binding) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, binding, name());
 }
 
+void Buffer::bindAtomicCounter(unsigned binding) const {
+  glBindBufferBase(GL_ATOMIC_COUNTER_BUFFER, binding, name());
+}
+
 }  // namespace sfumato::gl

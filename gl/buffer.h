@@ -59,6 +59,7 @@ class Buffer {
   // `offset` is a multiple of 256.
   void bindStorageRange(unsigned binding, size_t offset, size_t bytes) const;
   void bindUniform(unsigned binding) const;
+  void bindAtomicCounter(unsigned binding) const;
 
  private:
   Object<deleteBuffer> object_;

@@ -86,9 +86,10 @@ void drawIndexed(const VertexArray& vertices, const IndexedRange& range) {
       static_cast<GLint>(range.firstVertex), static_cast<GLuint>(range.firstInstance));
 }
 
-void drawGenerated(const Device& device, size_t vertices, size_t instances) {
+void drawGenerated(const Device& device, size_t vertices, size_t instances, Primitive primitive) {
   glBindVertexArray(device.emptyVertexArray());
-  glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices), static_cast<GLsizei>(instances));
+  glDrawArraysInstanced(primitive == Primitive::Points ? GL_POINTS : GL_TRIANGLES, 0,
+                        static_cast<GLsizei>(vertices), static_cast<GLsizei>(instances));
 }
 
 void dispatch(const Program& program, glm::uvec3 groups) {
@@ -106,6 +107,10 @@ void dispatchLinear(const Program& program, size_t count) {
 void storageBarrier() {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                   GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void imageBarrier() {
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace sfumato::gl

@@ -64,8 +64,10 @@ struct IndexedRange {
 };
 
 void drawIndexed(const VertexArray& vertices, const IndexedRange& range);
-// Triangles whose vertices the shader makes from gl_VertexID and gl_InstanceID.
-void drawGenerated(const Device& device, size_t vertices, size_t instances);
+enum class Primitive { Triangles, Points };
+// Primitives whose vertices the shader makes from gl_VertexID and gl_InstanceID.
+void drawGenerated(const Device& device, size_t vertices, size_t instances,
+                   Primitive primitive = Primitive::Triangles);
 
 // Runs a compute program on a grid of workgroups; zero in any direction does nothing.
 void dispatch(const Program& program, glm::uvec3 groups);
@@ -76,6 +78,9 @@ void dispatchLinear(const Program& program, size_t count);
 // What shaders wrote to storage buffers becomes visible to later shaders (as blocks and as buffer textures),
 // copies and reads.
 void storageBarrier();
+
+// What shaders wrote to images becomes visible to later image accesses and to Texture::read().
+void imageBarrier();
 
 // Workgroups of `groupSize` that cover `count`.
 inline unsigned groupsFor(size_t count, unsigned groupSize) {

@@ -21,6 +21,7 @@ void deleteShader(unsigned name) {
 
 GLenum stageOf(const std::string& name) {
   if (name.ends_with(".vert")) return GL_VERTEX_SHADER;
+  if (name.ends_with(".geom")) return GL_GEOMETRY_SHADER;
   if (name.ends_with(".frag")) return GL_FRAGMENT_SHADER;
   if (name.ends_with(".comp")) return GL_COMPUTE_SHADER;
   fail(ExitCode::Bug, "shader {}: its ending names no stage", name);

@@ -22,8 +22,8 @@ struct BlockMember {
 class Program {
  public:
   Program() = default;
-  // Compiles the files (the stage is told by their endings .vert, .frag, .comp) and links them. Throws Bug
-  // with the compiler's first lines, places named by file; Usage when a file is missing.
+  // Compiles the files (the stage is told by their endings .vert, .geom, .frag, .comp) and links them. Throws
+  // Bug with the compiler's first lines, places named by file; Usage when a file is missing.
   Program(const Device& device, const std::vector<std::string>& names, const ShaderDefines& defines = {});
 
   unsigned name() const { return object_.name(); }
