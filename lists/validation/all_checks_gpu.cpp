@@ -33,6 +33,7 @@ std::vector<Check> allChecks() {
   };
   add(contextChecks());
   add(atomicsChecks());
+  add(locksChecks());
   return all;
 }
 

@@ -63,6 +63,12 @@ struct Check {
 // One file a group; allChecks() has them in the order of the table in docs/validate.md.
 std::vector<Check> contextChecks();
 std::vector<Check> atomicsChecks();
+std::vector<Check> locksChecks();
+std::vector<Check> progressChecks();
+std::vector<Check> memoryModelChecks();
+std::vector<Check> rasterChecks();
+std::vector<Check> memoryChecks();
+std::vector<Check> determinismChecks();
 
 // These end their process as a bad driver would, to test what runs the checks. Only a name asks for them.
 std::vector<Check> faultyChecks();

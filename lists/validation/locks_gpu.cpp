@@ -1,5 +1,5 @@
-// Locks in shaders: do they keep others out, does everybody get in, and is what was written under one seen by the
-// next holder?
+// Locks in shaders: do they keep others out, does everybody get in, and is what was written under one seen by
+// the next holder?
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,23 +12,27 @@
 namespace sfumato::lists::validation {
 namespace {
 
-// Tries for one lock before an invocation gives up: below the 65,535 iterations at which some drivers end loops.
+// Tries for one lock before an invocation gives up: below the 65,535 iterations at which some drivers end
+// loops.
 constexpr uint32_t spinLimit = 30000;
-// An operating system that takes a holder's thread away lets a few others run into the bound; where lanes wait for
-// each other, whole vectors of them do.
+// An operating system that takes a holder's thread away lets a few others run into the bound; where lanes
+// wait for each other, whole vectors of them do.
 constexpr double starvingShare = 0.01;
 
 struct LockCase {
   std::string name;
   std::string acquire = "ACQUIRE_EXCHANGE";
-  std::string lockIndex;  // GLSL, of `id` and of `layer` in fragments
+  std::string lockIndex;  // GLSL: see lock.comp and lock.frag
   size_t locks = 1;
-  bool fragments = false;
-  size_t side = 64;  // of the square of fragments
-  size_t count = 0;  // invocations: of fragments, layers times side squared
+  bool fragments = false;  // of `patches`; else compute
+  Patches patches;
+  size_t count = 0;  // invocations of compute shaders
   int words = 4;     // that one lock guards
   std::string qualifier = "coherent";
   std::string shader = "lock.comp";
+  std::string barrier = "memoryBarrier";
+
+  size_t invocations() const { return fragments ? patches.fragments() : count; }
 };
 
 struct LockRun {
@@ -46,28 +50,29 @@ LockRun run(const Context& context, const LockCase& probe, const std::string& wi
                                {"LOCK_INDEX", probe.lockIndex},
                                {"SPIN_LIMIT", std::to_string(spinLimit) + "u"},
                                {"WORDS", std::to_string(probe.words) + "u"},
-                               {"QUALIFIER", probe.qualifier}};
+                               {"QUALIFIER", probe.qualifier},
+                               {"BARRIER", probe.barrier}};
   if (!without.empty()) defines.emplace_back("WITHOUT_" + without, "1");
   const gl::Buffer locks = zeroWords(context.device, probe.locks);
   const gl::Buffer guarded = zeroWords(context.device, probe.locks * static_cast<size_t>(probe.words));
-  const gl::Buffer outcome = zeroWords(context.device, 36);
+  const gl::Buffer outcome = zeroWords(context.device, 37);
   locks.bindStorage(0);
   guarded.bindStorage(1);
   outcome.bindStorage(2);
   if (probe.fragments) {
-    defines.emplace_back("SIDE", std::to_string(probe.side) + "u");
-    drawLayers(context.device, probeProgram(context, {"layers.vert", "lock.frag"}, defines),
-               static_cast<int>(probe.side), probe.count / (probe.side * probe.side));
+    const gl::ShaderDefines more = probe.patches.defines();
+    defines.insert(defines.end(), more.begin(), more.end());
+    drawPatches(context.device, probeProgram(context, {"layers.vert", "lock.frag"}, defines), probe.patches);
   } else {
     defines.emplace_back("COUNT", std::to_string(probe.count) + "u");
     gl::dispatchLinear(probeProgram(context, {probe.shader}, defines), probe.count);
   }
   gl::storageBarrier();
-  const auto told = outcome.readValues<uint32_t>(36);
+  const auto told = outcome.readValues<uint32_t>(37);
   LockRun result{.entered = told[0], .gaveUp = told[1], .torn = told[2], .maxTries = told[3]};
   uint64_t within = 0;
   for (size_t i = 0; i < 32 && within * 100 < uint64_t{result.entered} * 99; ++i) {
-    within += told[4 + i];
+    within += told[5 + i];
     result.tries99 = static_cast<uint32_t>((uint64_t{2} << i) - 1);
   }
   const auto values = guarded.readValues<uint32_t>(probe.locks * static_cast<size_t>(probe.words));
@@ -81,33 +86,39 @@ struct Tally {
   int64_t invocations = 0;
   int64_t lost = 0;
   int64_t torn = 0;
+  int64_t vanished = 0;  // invocations that neither entered nor gave up
   int64_t gaveUp = 0;
   int64_t maxTries = 0;
   int64_t tries99 = 0;
-  std::string broken;    // the first case that lost something, tore, or lost count of its invocations
+  std::string broken;    // the first case in which updates or invocations were lost
   std::string starving;  // the first case in which too many gave up
 
   void add(const LockCase& probe, const LockRun& run) {
-    invocations += static_cast<int64_t>(probe.count);
+    invocations += static_cast<int64_t>(probe.invocations());
     lost += run.lost;
     torn += run.torn;
     gaveUp += run.gaveUp;
     maxTries = std::max<int64_t>(maxTries, run.maxTries);
     tries99 = std::max<int64_t>(tries99, run.tries99);
-    const bool counted = uint64_t{run.entered} + run.gaveUp == probe.count;
-    if (broken.empty() && (run.lost != 0 || run.torn != 0 || !counted))
-      broken = fmt::format("{}: {} of {} updates lost, {} sections found another inside", probe.name, run.lost,
-                           run.entered, run.torn);
-    if (starving.empty() && run.gaveUp > starvingShare * static_cast<double>(probe.count))
+    const int64_t gone = static_cast<int64_t>(probe.invocations()) - run.entered - run.gaveUp;
+    vanished += gone;
+    if (broken.empty() && gone != 0)
+      broken = fmt::format("{}: {} of {} invocations vanished on their way through the section", probe.name,
+                           gone, probe.invocations());
+    else if (broken.empty() && (run.lost != 0 || run.torn != 0))
+      broken = fmt::format("{}: {} of {} updates lost, {} sections found the words of two others", probe.name,
+                           run.lost, run.entered, run.torn);
+    if (starving.empty() && run.gaveUp > starvingShare * static_cast<double>(probe.invocations()))
       starving = fmt::format("{}: {} of {} invocations never got their lock in {} tries", probe.name,
-                             run.gaveUp, probe.count, spinLimit);
+                             run.gaveUp, probe.invocations(), spinLimit);
   }
   bool bad() const { return !broken.empty() || !starving.empty(); }
 
   Result result(std::string brokenMeans, std::string starvingMeans) const {
     Result result;
-    result.figures = {{"invocations", invocations}, {"lost", lost},          {"torn", torn},
-                      {"gave up", gaveUp},          {"max tries", maxTries}, {"99 % within tries", tries99}};
+    result.figures = {{"invocations", invocations},  {"lost", lost},      {"torn", torn},
+                      {"vanished", vanished},        {"gave up", gaveUp}, {"max tries", maxTries},
+                      {"99 % within tries", tries99}};
     if (!broken.empty()) {
       result.verdict = Verdict::Fail;
       result.finding = broken;
@@ -148,18 +159,16 @@ std::string acquireName(const std::string& acquire) {
 // larger runs would take minutes.
 LockCase quadProbe() {
   return {.name = "fragments of a quad",
-          .lockIndex = "(id / SIDE / 2u) * (SIDE / 2u) + id % SIDE / 2u",
-          .locks = 16,
+          .lockIndex =
+              "(id / (PATCH * PATCH)) * (PATCH * PATCH / 4u) + pixel.y / 2u * (PATCH / 2u) + pixel.x / 2u",
+          .locks = 64,
           .fragments = true,
-          .side = 8,
-          .count = 64};
+          .patches = {.patch = 8}};
 }
 
 Result lockNaive(const Context& context) {
-  const LockCase probe{.name = "64 invocations on one lock",
-                       .lockIndex = "0u",
-                       .count = 64,
-                       .shader = "lock_naive.comp"};
+  const LockCase probe{
+      .name = "64 invocations on one lock", .lockIndex = "0u", .count = 64, .shader = "lock_naive.comp"};
   const LockRun locked = run(context, probe);
   const LockRun control = run(context, probe, "LOCK");
   Tally tally;
@@ -175,20 +184,20 @@ Result lockNaive(const Context& context) {
 }
 
 Result lockPixel(const Context& context) {
-  const size_t side = context.scale == Scale::Full ? 256 : 64;
+  const Patches patches{.patch = sized(context, 32, 64), .layers = 8};
   Tally tally;
   int64_t lostWithout = 0;
   for (const std::string& acquire : allAcquires) {
     const LockCase probe{.name = "one lock a pixel, " + acquireName(acquire),
                          .acquire = acquire,
                          .lockIndex = "id",
-                         .locks = side * side,
+                         .locks = patches.pixels(),
                          .fragments = true,
-                         .side = side,
-                         .count = side * side * 8};
+                         .patches = patches};
     tally.add(probe, run(context, probe));
     if (tally.bad()) break;
-    lostWithout += run(context, probe, "LOCK").lost;
+    // What is lost without the lock does not depend on how it is taken.
+    if (lostWithout == 0 && acquire == allAcquires.front()) lostWithout = run(context, probe, "LOCK").lost;
   }
   Result result = tally.result(excludesNobody, waitsForItself);
   result.figures.emplace_back("lost without the lock", lostWithout);
@@ -199,29 +208,28 @@ Result lockPixel(const Context& context) {
 }
 
 Result lockGlobal(const Context& context) {
-  const size_t side = context.scale == Scale::Full ? 1024 : 64;
+  const bool full = context.scale == Scale::Full;
   Tally tally;
   int64_t lostWithout = 0;
-  // Few at first: a driver on which they all starve would take hours over the rest.
-  for (const size_t fewerOrAll : {size_t{8}, side}) {
-    const LockCase probe{.name = fmt::format("{} fragments on one lock", fewerOrAll * fewerOrAll),
+  // Few at first, in case nobody gets through.
+  for (const Patches& patches :
+       {Patches{.patch = 8}, Patches{.grid = full ? 16u : 2u, .patch = sized(context, 32, 64)}}) {
+    const LockCase probe{.name = fmt::format("{} fragments on one lock", patches.fragments()),
                          .lockIndex = "0u",
                          .fragments = true,
-                         .side = fewerOrAll,
-                         .count = fewerOrAll * fewerOrAll};
+                         .patches = patches};
     tally.add(probe, run(context, probe));
     if (tally.bad()) break;
     lostWithout += run(context, probe, "LOCK").lost;
   }
   Result result = tally.result(excludesNobody, waitsForItself);
   result.figures.emplace_back("lost without the lock", lostWithout);
-  if (lostWithout == 0)
-    return noPower(result, "no update was lost without the lock", "nothing, good or bad");
+  if (lostWithout == 0) return noPower(result, "no update was lost without the lock", "nothing, good or bad");
   return result;
 }
 
 Result lockHash(const Context& context) {
-  const size_t count = context.scale == Scale::Full ? 65536 : 8192;
+  const Patches patches{.patch = sized(context, 32, 64), .layers = sized(context, 4, 8)};
   Tally tally;
   int64_t lostInCompute = 0;
   int64_t lostInFragments = 0;
@@ -233,13 +241,13 @@ Result lockHash(const Context& context) {
                          .lockIndex = fmt::format("hash(id) % {}u", locks),
                          .locks = locks,
                          .fragments = fragments,
-                         .count = count});
+                         .patches = patches,
+                         .count = patches.fragments()});
     for (LockCase& probe : cases) {
       probe.name += ", " + acquireName(acquire);
       probe.acquire = acquire;
       tally.add(probe, run(context, probe));
       if (tally.bad()) break;
-      // What is lost without the lock does not depend on how it is taken.
       if (acquire == allAcquires.front())
         (probe.fragments ? lostInFragments : lostInCompute) += run(context, probe, "LOCK").lost;
     }
@@ -249,17 +257,40 @@ Result lockHash(const Context& context) {
   result.figures.emplace_back("lost without the lock, compute", lostInCompute);
   result.figures.emplace_back("lost without the lock, fragments", lostInFragments);
   if (lostInCompute == 0 || lostInFragments == 0)
-    return noPower(result,
-                   fmt::format("no update was lost without the lock {}",
-                               lostInCompute + lostInFragments == 0 ? "at all"
-                               : lostInCompute == 0                 ? "in compute shaders"
-                                                                    : "in fragment shaders"),
-                   "nothing, good or bad: invocations do not run at the same time here");
+    return noPower(
+        result,
+        fmt::format("no update was lost without the lock {}", lostInCompute + lostInFragments == 0 ? "at all"
+                                                              : lostInCompute == 0 ? "in compute shaders"
+                                                                                   : "in fragment shaders"),
+        "nothing, good or bad: invocations do not run at the same time here");
+  return result;
+}
+
+Result barrierInSection(const Context& context) {
+  Tally tally;
+  std::string bad;
+  for (const char* barrier : {"memoryBarrier", "memoryBarrierBuffer", "memoryBarrierImage",
+                              "memoryBarrierShared", "groupMemoryBarrier"}) {
+    const LockCase probe{.name = fmt::format("{}()", barrier),
+                         .lockIndex = "hash(id) % 7u",
+                         .locks = 7,
+                         .count = 1024,
+                         .barrier = barrier};
+    const LockRun locked = run(context, probe);
+    tally.add(probe, locked);
+    if (locked.entered != probe.count || locked.lost != 0) bad += (bad.empty() ? "" : ", ") + probe.name;
+  }
+  Result result =
+      tally.result("in a compute shader that has branched, " + bad + " cannot be used", waitsForItself);
+  const LockCase plain{.lockIndex = "hash(id) % 7u", .locks = 7, .count = 1024};
+  const int64_t lostWithout = run(context, plain, "LOCK").lost;
+  result.figures.emplace_back("lost without the lock", lostWithout);
+  if (lostWithout == 0) return noPower(result, "no update was lost without the lock", "nothing, good or bad");
   return result;
 }
 
 Result lockPublish(const Context& context) {
-  const size_t count = context.scale == Scale::Full ? 262144 : 16384;
+  const size_t count = sized(context, 16384, 262144);
   Result result;
   Tally tally;
   int64_t tornWithoutBarrier = 0;
@@ -280,9 +311,9 @@ Result lockPublish(const Context& context) {
     tornWithoutBarrier += loose.torn + loose.lost;
     tornWithoutLock += run(context, probe, "LOCK").torn;
   }
-  Result judged = tally.result(
-      "what is written under a lock is not whole for its next holder: build lists without locks",
-      waitsForItself);
+  Result judged =
+      tally.result("what is written under a lock is not whole for its next holder: build lists without locks",
+                   waitsForItself);
   result.figures.insert(result.figures.begin(), judged.figures.begin(), judged.figures.end());
   result.figures.emplace_back("torn without lock", tornWithoutLock);
   judged.figures = std::move(result.figures);
@@ -312,7 +343,7 @@ std::vector<uint32_t> balances(uint32_t transfers, uint32_t accounts) {
 }
 
 Result lockTwo(const Context& context) {
-  const uint32_t count = context.scale == Scale::Full ? 65536 : 8192;
+  const auto count = static_cast<uint32_t>(sized(context, 8192, 65536));
   Result result;
   int64_t wrongWithout = 0;
   for (const uint32_t accounts : {2u, 13u, 1000u}) {
@@ -322,12 +353,13 @@ Result lockTwo(const Context& context) {
                                    {"SPIN_LIMIT", std::to_string(spinLimit) + "u"},
                                    {"WORDS", "1u"},
                                    {"QUALIFIER", "coherent"},
+                                   {"BARRIER", "memoryBarrier"},
                                    {"COUNT", std::to_string(count) + "u"},
                                    {"LOCKS", std::to_string(accounts) + "u"}};
       defines.insert(defines.end(), more.begin(), more.end());
       const gl::Buffer locks = zeroWords(context.device, accounts);
       const gl::Buffer guarded = zeroWords(context.device, accounts);
-      const gl::Buffer outcome = zeroWords(context.device, 36);
+      const gl::Buffer outcome = zeroWords(context.device, 37);
       locks.bindStorage(0);
       guarded.bindStorage(1);
       outcome.bindStorage(2);
@@ -367,24 +399,23 @@ Result interlock(const Context& context) {
   if (!context.device.has(extension))
     return {Verdict::Skip, fmt::format("no {}", extension),
             "critical sections of a pixel need locks or atomics here"};
-  constexpr int side = 128;
-  constexpr uint32_t layers = 16;
+  constexpr Patches patches{.grid = 4, .patch = 64, .layers = 16};
   Result result;
   int64_t wrongWithout = 0;
   for (const char* mode : {"pixel_interlock_ordered", "pixel_interlock_unordered"}) {
     const auto draw = [&](const gl::ShaderDefines& more) {
-      gl::ShaderDefines defines = {{"MODE", mode}, {"SIDE", std::to_string(side) + "u"}};
+      gl::ShaderDefines defines = patches.defines();
+      defines.emplace_back("MODE", mode);
       defines.insert(defines.end(), more.begin(), more.end());
-      const gl::Buffer pixels = zeroWords(context.device, size_t{side} * side * 2);
+      const gl::Buffer pixels = zeroWords(context.device, patches.pixels() * 2);
       const gl::Buffer outcome = zeroWords(context.device, 1);
       pixels.bindStorage(0);
       outcome.bindStorage(1);
-      drawLayers(context.device, probeProgram(context, {"layers.vert", "interlock.frag"}, defines), side,
-                 layers);
+      drawPatches(context.device, probeProgram(context, {"layers.vert", "interlock.frag"}, defines), patches);
       gl::storageBarrier();
-      const auto values = pixels.readValues<uint32_t>(size_t{side} * side * 2);
+      const auto values = pixels.readValues<uint32_t>(patches.pixels() * 2);
       int64_t lost = 0;
-      for (size_t i = 0; i < values.size(); i += 2) lost += int64_t{layers} - values[i];
+      for (size_t i = 0; i < values.size(); i += 2) lost += static_cast<int64_t>(patches.layers) - values[i];
       return std::pair(lost, int64_t{outcome.readValue<uint32_t>()});
     };
     const auto [lost, disorder] = draw({});
@@ -396,7 +427,7 @@ Result interlock(const Context& context) {
     if (result.verdict == Verdict::Pass && (lost != 0 || (ordered && disorder != 0))) {
       result.verdict = Verdict::Fail;
       result.finding = fmt::format("{}: {} of {} updates lost, {} out of order", mode, lost,
-                                   int64_t{side} * side * layers, disorder);
+                                   patches.fragments(), disorder);
       result.meaning = "interlocked sections cannot be trusted here: the engine does not use them";
     }
   }
@@ -429,6 +460,12 @@ std::vector<Check> locksChecks() {
        {"spinlock"},
        {"NO_LOCK"},
        lockHash},
+      {"lock-barrier",
+       "locks",
+       "a section in a compute shader may hold any of the five memory barriers",
+       {"spinlock"},
+       {"NO_LOCK"},
+       barrierInSection},
       {"lock-publish",
        "locks",
        "16 words written under a lock are whole for the next holder",

@@ -1,13 +1,12 @@
 // Fragments of one pixel go through an interlocked section: each notes the layer of the one before it, and its own.
 #extension GL_ARB_fragment_shader_interlock : require
-#include "shaders/lists/validation/random.glsl"
 
 #ifdef MUTANT_NO_INTERLOCK
 #define WITHOUT_INTERLOCK
 #endif
 
 layout(MODE) in;
-flat in uint layer;
+#include "shaders/lists/validation/patches.glsl"
 
 layout(std430, binding = 0) coherent buffer Pixels {
   uvec2 pixels[];  // fragments so far, layer of the last one + 1
@@ -17,7 +16,7 @@ layout(std430, binding = 1) coherent buffer Outcome {
 };
 
 void main() {
-  uint pixel = uint(gl_FragCoord.y) * SIDE + uint(gl_FragCoord.x);
+  uint pixel = patchId();
   bool inOrder;
 #ifndef WITHOUT_INTERLOCK
   beginInvocationInterlockARB();

@@ -4,5 +4,6 @@
 
 void main() {
   uint id = linearId();
+  if (gl_LocalInvocationIndex == 0u) gate();
   if (id < COUNT) lockOnce(LOCK_INDEX, id);
 }

@@ -1,10 +1,11 @@
-// Every fragment of a square of SIDE pixels, once in the section of LOCK_INDEX (an expression of `id`, the pixel's
-// number, `layer` and SIDE).
+// Every fragment of validation::drawPatches, once in the section of LOCK_INDEX (an expression of `id`, the pixel's number, of its
+// place `pixel` in the patch, and of PATCH).
 #include "shaders/lists/validation/lock.glsl"
-
-flat in uint layer;
+#include "shaders/lists/validation/patches.glsl"
 
 void main() {
-  uint id = uint(gl_FragCoord.y) * SIDE + uint(gl_FragCoord.x);
-  lockOnce(LOCK_INDEX, id + layer * SIDE * SIDE);
+  uint id = patchId();
+  uvec2 pixel = patchPixel();
+  if (layer == 0u && pixel == uvec2(0u)) gate();
+  lockOnce(LOCK_INDEX, id + layer * GRID * GRID * PATCH * PATCH);
 }

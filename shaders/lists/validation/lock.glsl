@@ -3,7 +3,8 @@
 // equal whenever nobody is inside.
 //
 // ACQUIRE_EXCHANGE, ACQUIRE_COMPARE: how a lock is taken; ACQUIRE_HEAD: as in shaders/lists/insert.glsl, where the
-// word is both a list's head and its lock. WORDS, SPIN_LIMIT, QUALIFIER (of what is guarded): numbers and words.
+// word is both a list's head and its lock. WORDS, SPIN_LIMIT, QUALIFIER (of what is guarded), BARRIER
+// (before the lock is given back): numbers and words.
 #include "shaders/lists/validation/random.glsl"
 
 #ifdef MUTANT_NO_LOCK
@@ -24,8 +25,13 @@ layout(std430, binding = 2) coherent buffer Outcome {
   uint gaveUp;    // invocations that the bound of the spin stopped
   uint torn;      // sections that found the words of two others
   uint maxTries;  // for one lock
+  uint arrived;   // workgroups and patches that have started
   uint tries[32]; // how many entered after up to 2^(i+1) - 1 tries
 };
+#include "shaders/lists/validation/gate.glsl"
+
+// So many that gave up say enough: the others do not try, or a starving driver would take hours.
+const uint GIVE_UPS_TOLD = 256u;
 
 const uint LOCKED = 0xffffffffu;
 
@@ -43,7 +49,7 @@ bool acquire(uint lock, out uint head) {
 
 void release(uint lock, uint head) {
 #ifndef WITHOUT_BARRIER
-  memoryBarrierBuffer();
+  BARRIER();
 #endif
 #if defined(WITHOUT_LOCK)
 #elif defined(ACQUIRE_HEAD)
@@ -65,6 +71,10 @@ void section(uint lock, uint stamp) {
   if (!whole) atomicAdd(torn, 1u);
 }
 
+uint spinLimit() {
+  return atomicAdd(gaveUp, 0u) < GIVE_UPS_TOLD ? SPIN_LIMIT : 1u;
+}
+
 void count(bool done, uint spins) {
   if (done) {
     atomicAdd(entered, 1u);
@@ -79,7 +89,8 @@ void count(bool done, uint spins) {
 void lockOnce(uint lock, uint stamp) {
   bool done = false;
   uint spins = 0u;
-  while (!done && spins < SPIN_LIMIT) {
+  uint limit = spinLimit();
+  while (!done && spins < limit) {
     ++spins;
     uint head;
     if (acquire(lock, head)) {

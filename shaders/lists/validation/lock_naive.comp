@@ -5,12 +5,14 @@
 
 void main() {
   uint id = linearId();
+  if (gl_LocalInvocationIndex == 0u) gate();
   if (id >= COUNT) return;
   uint lock = LOCK_INDEX;
   uint head;
   bool got = false;
   uint spins = 0u;
-  while (!got && spins < SPIN_LIMIT) {
+  uint limit = spinLimit();
+  while (!got && spins < limit) {
     ++spins;
     got = acquire(lock, head);
   }

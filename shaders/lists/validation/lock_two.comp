@@ -5,6 +5,7 @@
 
 void main() {
   uint id = linearId();
+  if (gl_LocalInvocationIndex == 0u) gate();
   if (id >= COUNT) return;
   uint from = hash(id) % LOCKS;
   uint to = (from + 1u + hash(id + COUNT) % (LOCKS - 1u)) % LOCKS;
@@ -12,7 +13,8 @@ void main() {
   uint second = max(from, to);
   bool done = false;
   uint spins = 0u;
-  while (!done && spins < SPIN_LIMIT) {
+  uint limit = spinLimit();
+  while (!done && spins < limit) {
     ++spins;
     uint head;
     if (acquire(first, head)) {
