@@ -10,6 +10,7 @@ namespace sfumato::lists::validation {
 const gl::Program& probeProgram(const Context& context, std::vector<std::string> files,
                                 gl::ShaderDefines defines) {
   for (std::string& file : files) file.insert(0, "lists/validation/");
+  defines.emplace_back("GATE_TRIES", interpreted(context.device) ? "1u" : "32u");
   if (!context.mutant.empty()) defines.emplace_back("MUTANT_" + context.mutant, "1");
   return context.device.program(files, defines);
 }
@@ -45,11 +46,20 @@ void drawPatches(gl::Device& device, const gl::Program& program, const Patches& 
 
 size_t sized(const Context& context, size_t small, size_t full) {
   if (context.scale == Scale::Full) return full;
-  return context.device.names().renderer.find("softpipe") == std::string::npos ? small : small / 4;
+  return interpreted(context.device) ? small / 4 : small;
 }
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+bool interpreted(const gl::Device& device) {
+  return device.names().renderer.find("softpipe") != std::string::npos;
+}
+
+bool untilSeen(const Context& context, const std::function<bool()>& round) {
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::milliseconds(context.scale == Scale::Full ? 5000 : 800);
+  do {
+    if (round()) return true;
+  } while (std::chrono::steady_clock::now() < end);
+  return false;
 }
 
 }  // namespace sfumato::lists::validation

@@ -1,6 +1,7 @@
 // What the probes of several groups of checks need.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,11 @@ void drawPatches(gl::Device& device, const gl::Program& program, const Patches& 
 // which is some hundred times slower.
 size_t sized(const Context& context, size_t small, size_t full);
 
-// Seconds since some moment.
-double now();
+// Whether the driver interprets shaders (softpipe).
+bool interpreted(const gl::Device& device);
+
+// Calls `round` until it is true or the time for one check's control is over; whether it was. What runs at
+// the same time depends on the operating system too, so that a control may need many rounds until it fails.
+bool untilSeen(const Context& context, const std::function<bool()>& round);
 
 }  // namespace sfumato::lists::validation

@@ -1,5 +1,5 @@
 // The critical section that the lock checks run: lock `i` guards the words guarded[i * WORDS …]. Whoever holds it adds
-// one to the first by a plain read and a plain write, and leaves its own number in all the others, which are therefore
+// one to the first by a plain read at the start and a plain write at the end, and leaves its own number in all the others, which are therefore
 // equal whenever nobody is inside.
 //
 // ACQUIRE_EXCHANGE, ACQUIRE_COMPARE: how a lock is taken; ACQUIRE_HEAD: as in shaders/lists/insert.glsl, where the
@@ -25,13 +25,15 @@ layout(std430, binding = 2) coherent buffer Outcome {
   uint gaveUp;    // invocations that the bound of the spin stopped
   uint torn;      // sections that found the words of two others
   uint maxTries;  // for one lock
-  uint arrived;   // workgroups and patches that have started
+  uint gateInside;
+  uint gateMet;   // two ran at the same time
+  uint gateTries;
   uint tries[32]; // how many entered after up to 2^(i+1) - 1 tries
 };
 #include "shaders/lists/validation/gate.glsl"
 
 // So many that gave up say enough: the others do not try, or a starving driver would take hours.
-const uint GIVE_UPS_TOLD = 256u;
+const uint GIVE_UPS_TOLD = 64u;
 
 const uint LOCKED = 0xffffffffu;
 
@@ -61,13 +63,14 @@ void release(uint lock, uint head) {
 
 void section(uint lock, uint stamp) {
   uint first = lock * WORDS;
-  guarded[first] = guarded[first] + 1u;
+  uint before = guarded[first];
   uint found = guarded[first + 1u];
   bool whole = true;
   for (uint i = 1u; i < WORDS; ++i) {
     if (guarded[first + i] != found) whole = false;
   }
   for (uint i = 1u; i < WORDS; ++i) guarded[first + i] = stamp;
+  guarded[first] = before + 1u;
   if (!whole) atomicAdd(torn, 1u);
 }
 
