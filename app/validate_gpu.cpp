@@ -1,5 +1,8 @@
 // `sfumato validate`: whether this driver can be trusted with atomics, lists and locks.
+#include <unistd.h>
+
 #include <chrono>
+#include <filesystem>
 
 #include "app/options.h"
 #include "base/error.h"
@@ -10,10 +13,12 @@
 #include "lists/validation/report.h"
 #include "lists/validation/run_here_gpu.h"
 #include "lists/validation/runner.h"
+#include "lists/validation/self_test_gpu.h"
 
 namespace sfumato::app {
 namespace {
 
+namespace fs = std::filesystem;
 using namespace lists::validation;
 
 constexpr int interruptedExitCode = 130;  // as shells have it for Ctrl-C
@@ -79,6 +84,63 @@ void keepVerdict(const ValidateOptions& options, const Report& report,
   }
 }
 
+// A folder for the time of the run.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("sfumato-validate-{}", getpid())) {
+    fs::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// Runs them all, with the progress on stderr; interrupted at once when the driver's answer already was.
+Report runAll(const std::vector<Run>& runs, const RunOptions& options, const char* what) {
+  Report report{.options = options};
+  const std::optional<DriverAnswer> driver = askDriver(options);
+  report.outcomes.interrupted = !driver;
+  if (!driver) return report;
+  report.driver = *driver;
+  const auto start = std::chrono::steady_clock::now();
+  base::Progress progress(what, static_cast<long>(runs.size()));
+  report.outcomes = runChecks(runs, options, [&] { progress.advance(); });
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+int exitCode(const Report& report, bool good) {
+  if (report.outcomes.interrupted) return interruptedExitCode;
+  return static_cast<int>(good ? base::ExitCode::Done : base::ExitCode::CheckFailed);
+}
+
+int selfTest(const ValidateOptions& options, const std::vector<Check>& checks) {
+  const TemporaryFolder folder;
+  const Report report = runAll(mutantRuns(checks, folder.path()), runOptions(options), "self-test");
+  base::printResult(options.json ? json(report, {}) : selfTestTable(report));
+  return exitCode(report, allCaught(report));
+}
+
+int runChecks(const ValidateOptions& options, const std::vector<Check>& checks,
+              const std::vector<Check>& all) {
+  if (!options.junit.empty()) base::checkWritable(options.junit);
+  std::vector<Run> runs;
+  for (const Check& check : checks) runs.push_back({check, {}, {}});
+  const Report report = runAll(runs, runOptions(options), "validating");
+  const std::vector<StrategyTrust> trusts = strategyTrusts(report, all);
+  if (!options.junit.empty()) base::writeFile(options.junit, junit(report));
+  base::printResult(options.json ? json(report, trusts) : options.tap ? tap(report) : table(report, trusts));
+  keepVerdict(options, report, trusts);
+  return exitCode(report, !breaksTheEngine(report));
+}
+
 }  // namespace
 
 int validate(const ValidateOptions& options) {
@@ -89,25 +151,7 @@ int validate(const ValidateOptions& options) {
     for (Check& check : faultyChecks()) known.push_back(std::move(check));
   const std::vector<Check> checks = select(known, options.only, options.skip);
   if (options.list) return list(checks);
-  if (!options.junit.empty()) base::checkWritable(options.junit);
-
-  Report report{.options = runOptions(options)};
-  report.driver = askDriver(report.options);
-  std::vector<Run> runs;
-  for (const Check& check : checks) runs.push_back({check, {}, {}});
-  const auto start = std::chrono::steady_clock::now();
-  {
-    base::Progress progress("validating", static_cast<long>(runs.size()));
-    report.outcomes = runChecks(runs, report.options, [&] { progress.advance(); });
-  }
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-  const std::vector<StrategyTrust> trusts = strategyTrusts(report, all);
-  if (!options.junit.empty()) base::writeFile(options.junit, junit(report));
-  base::printResult(options.json ? json(report, trusts) : options.tap ? tap(report) : table(report, trusts));
-  keepVerdict(options, report, trusts);
-  if (report.outcomes.interrupted) return interruptedExitCode;
-  return static_cast<int>(breaksTheEngine(report) ? base::ExitCode::CheckFailed : base::ExitCode::Done);
+  return options.selfTest ? selfTest(options, checks) : runChecks(options, checks, all);
 }
 
 }  // namespace sfumato::app

@@ -33,7 +33,11 @@ std::vector<Check> allChecks() {
   };
   add(contextChecks());
   add(atomicsChecks());
+  add(listsChecks());
+  add(loopsChecks());
   add(locksChecks());
+  add(progressChecks());
+  add(memoryModelChecks());
   return all;
 }
 

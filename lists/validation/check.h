@@ -63,6 +63,8 @@ struct Check {
 // One file a group; allChecks() has them in the order of the table in docs/validate.md.
 std::vector<Check> contextChecks();
 std::vector<Check> atomicsChecks();
+std::vector<Check> listsChecks();
+std::vector<Check> loopsChecks();
 std::vector<Check> locksChecks();
 std::vector<Check> progressChecks();
 std::vector<Check> memoryModelChecks();

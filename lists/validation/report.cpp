@@ -45,21 +45,30 @@ bool breaksTheEngine(const Report& report) {
 }
 
 std::vector<StrategyTrust> strategyTrusts(const Report& report, const std::vector<Check>& checks) {
+  const auto& all = report.outcomes.all;
   std::vector<StrategyTrust> trusts;
   for (const char* strategy : strategies) {
     StrategyTrust& trust = trusts.emplace_back(StrategyTrust{strategy, Trust::Safe, {}});
+    const auto because = [&](const std::string& reason) {
+      trust.because += (trust.because.empty() ? "" : ", ") + reason;
+    };
+    size_t notRun = 0;
     for (const Check& check : checks) {
       if (!dependsOn(check, strategy)) continue;
-      const auto& all = report.outcomes.all;
       const auto outcome = std::find_if(all.begin(), all.end(),
                                         [&](const Outcome& o) { return o.run.check.name == check.name; });
-      if (outcome != all.end() && outcome->result.verdict == Verdict::Pass) continue;
-      const bool bad = outcome != all.end() && isBad(outcome->result.verdict);
-      if (bad || trust.trust == Trust::Safe) trust.trust = bad ? Trust::Unsafe : Trust::NotShown;
-      trust.because +=
-          fmt::format("{}{} {}", trust.because.empty() ? "" : ", ", check.name,
-                      outcome == all.end() ? std::string_view("not run") : name(outcome->result.verdict));
+      if (outcome == all.end()) {
+        ++notRun;
+        continue;
+      }
+      const Verdict verdict = outcome->result.verdict;
+      if (verdict == Verdict::Pass) continue;
+      because(fmt::format("{} {}", check.name, name(verdict)));
+      if (isBad(verdict)) trust.trust = Trust::Unsafe;
+      if (trust.trust == Trust::Safe) trust.trust = Trust::NotShown;
     }
+    if (notRun != 0) because(fmt::format("{} checks not run", notRun));
+    if (notRun != 0 && trust.trust == Trust::Safe) trust.trust = Trust::NotShown;
   }
   return trusts;
 }

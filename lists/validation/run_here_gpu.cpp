@@ -5,12 +5,17 @@
 namespace sfumato::lists::validation {
 namespace {
 
+// A compiler's log has more lines; the first says what is wrong.
+std::string firstLine(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
 Result guarded(const Check& check, const Context& context) {
   try {
     return check.run(context);
   } catch (const base::Error& error) {
-    if (error.exitCode == base::ExitCode::Memory) return {Verdict::Skip, error.what(), {}, {}};
-    return {Verdict::Fail, error.what(), "such code does not even start on this driver", {}};
+    if (error.exitCode == base::ExitCode::Memory) return {Verdict::Skip, firstLine(error.what()), {}, {}};
+    return {Verdict::Fail, firstLine(error.what()), "such code does not even start on this driver", {}};
   }
 }
 

@@ -32,7 +32,6 @@ Command commandOf(const Run& run, const RunOptions& options) {
                      "--run-check",   run.check.name,
                      "--seed",        fmt::format("{}", options.seed),
                      "--scale",       options.scale == Scale::Small ? "small" : "full"};
-  if (!run.mutant.empty()) command.insert(command.end(), {"--mutant", run.mutant});
   command.insert(command.end(), options.deviceArguments.begin(), options.deviceArguments.end());
   command.insert(command.end(), run.arguments.begin(), run.arguments.end());
   return command;
@@ -116,17 +115,18 @@ std::string line(const DriverAnswer& answer) {
                   {"software", answer.software}});
 }
 
-DriverAnswer askDriver(const RunOptions& options) {
+std::optional<DriverAnswer> askDriver(const RunOptions& options) {
   const Run question{{.name = driverQuestion}, {}, {}};
   Ended ended;
   runCommands({commandOf(question, options)}, 1, options.timeoutSeconds,
               [&](size_t, const Ended& end) { ended = end; });
+  if (ended.how == Ended::How::Interrupted) return std::nullopt;
   try {
     if (ended.how == Ended::How::Exited && ended.code == 0) {
       const json text = json::parse(lastLine(ended.out));
-      return {{text.at("vendor"), text.at("renderer"), text.at("version")},
-              text.at("platform"),
-              text.at("software")};
+      return DriverAnswer{{text.at("vendor"), text.at("renderer"), text.at("version")},
+                          text.at("platform"),
+                          text.at("software")};
     }
   } catch (const json::exception&) {
   }

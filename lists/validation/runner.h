@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ struct RunOptions {
 // One check to run, as it is or with a fault put into its shaders.
 struct Run {
   Check check;
-  std::string mutant;
-  std::vector<std::string> arguments;  // more of them, for its process
+  std::string mutant;                  // the fault's name, for the report
+  std::vector<std::string> arguments;  // that put it there
 };
 
 struct Outcome {
@@ -44,14 +45,15 @@ struct Outcomes {
 Outcomes runChecks(
     const std::vector<Run>& runs, const RunOptions& options, const std::function<void()>& onEnd = [] {});
 
-// The driver that the checks will run on, asked in a process of its own as well.
+// The driver that the checks will run on.
 struct DriverAnswer {
   Driver driver;
   std::string platform;  // how EGL reached it
   bool software = false;
 };
-// Throws NoGl when there is none, in the words of that process.
-DriverAnswer askDriver(const RunOptions& options);
+// Asks for it in a process of its own as well; nothing when the user interrupts. Throws NoGl when there is no
+// driver, in the words of that process.
+std::optional<DriverAnswer> askDriver(const RunOptions& options);
 
 // What passes between the two processes.
 inline constexpr const char* driverQuestion = "driver";  // in place of a check's name

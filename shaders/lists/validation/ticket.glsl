@@ -17,7 +17,7 @@ layout(std430, binding = 2) coherent buffer Outcome {
 };
 
 void drawTicket(uint id) {
-  uint address = ADDRESSES == 1u ? 0u : hash(id) % ADDRESSES;
+  uint address = ADDRESSES == COUNT ? id : hash(id + SEED) % ADDRESSES;
 #ifdef WITHOUT_ATOMIC
   uint ticket = counters[address];
   counters[address] = ticket + 1u;
