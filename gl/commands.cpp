@@ -113,4 +113,8 @@ void imageBarrier() {
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
+void flush() {
+  glFlush();
+}
+
 }  // namespace sfumato::gl

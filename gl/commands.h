@@ -82,6 +82,9 @@ void storageBarrier();
 // What shaders wrote to images becomes visible to later image accesses and to Texture::read().
 void imageBarrier();
 
+// Starts what was asked for so far, without waiting for it.
+void flush();
+
 // Workgroups of `groupSize` that cover `count`.
 inline unsigned groupsFor(size_t count, unsigned groupSize) {
   return static_cast<unsigned>((count + groupSize - 1) / groupSize);

@@ -35,6 +35,9 @@ std::vector<Check> allChecks() {
   add(atomicsChecks());
   add(listsChecks());
   add(loopsChecks());
+  add(locksChecks());
+  add(progressChecks());
+  add(memoryModelChecks());
   return all;
 }
 

@@ -65,6 +65,12 @@ std::vector<Check> contextChecks();
 std::vector<Check> atomicsChecks();
 std::vector<Check> listsChecks();
 std::vector<Check> loopsChecks();
+std::vector<Check> locksChecks();
+std::vector<Check> progressChecks();
+std::vector<Check> memoryModelChecks();
+std::vector<Check> rasterChecks();
+std::vector<Check> memoryChecks();
+std::vector<Check> determinismChecks();
 
 // These end their process as a bad driver would, to test what runs the checks. Only a name asks for them.
 std::vector<Check> faultyChecks();

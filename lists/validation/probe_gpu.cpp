@@ -1,5 +1,7 @@
 #include "lists/validation/probe_gpu.h"
 
+#include <chrono>
+
 #include "gl/commands.h"
 #include "gl/texture.h"
 
@@ -8,6 +10,7 @@ namespace sfumato::lists::validation {
 const gl::Program& probeProgram(const Context& context, std::vector<std::string> files,
                                 gl::ShaderDefines defines) {
   for (std::string& file : files) file.insert(0, "lists/validation/");
+  defines.emplace_back("GATE_TRIES", interpreted(context.device) ? "1u" : "32u");
   if (!context.mutant.empty()) defines.emplace_back("MUTANT_" + context.mutant, "1");
   return context.device.program(files, defines);
 }
@@ -22,6 +25,41 @@ void drawLayers(gl::Device& device, const gl::Program& program, int side, size_t
   const gl::Framebuffer nothing(glm::ivec2(side, side));
   gl::setDrawState({.program = &program, .target = &nothing, .viewport = {0, 0, side, side}});
   gl::drawGenerated(device, 3, layers);
+}
+
+gl::ShaderDefines Patches::defines() const {
+  return {{"GRID", std::to_string(grid) + "u"}, {"PATCH", std::to_string(patch) + "u"}};
+}
+
+void drawPatches(gl::Device& device, const gl::Program& program, const Patches& patches) {
+  const int grid = static_cast<int>(patches.grid);
+  const int patch = static_cast<int>(patches.patch);
+  const gl::Framebuffer nothing(glm::ivec2(grid * 64));
+  gl::DrawState state{.program = &program, .target = &nothing, .viewport = {0, 0, grid * 64, grid * 64}};
+  for (int y = 0; y < grid; ++y)
+    for (int x = 0; x < grid; ++x) {
+      state.scissor = {x * 64, y * 64, patch, patch};
+      gl::setDrawState(state);
+      gl::drawGenerated(device, 3, patches.layers);
+    }
+}
+
+size_t sized(const Context& context, size_t small, size_t full) {
+  if (context.scale == Scale::Full) return full;
+  return interpreted(context.device) ? small / 4 : small;
+}
+
+bool interpreted(const gl::Device& device) {
+  return device.names().renderer.find("softpipe") != std::string::npos;
+}
+
+bool untilSeen(const Context& context, const std::function<bool()>& round) {
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::milliseconds(context.scale == Scale::Full ? 5000 : 800);
+  do {
+    if (round()) return true;
+  } while (std::chrono::steady_clock::now() < end);
+  return false;
 }
 
 }  // namespace sfumato::lists::validation
