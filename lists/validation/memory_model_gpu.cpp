@@ -30,6 +30,7 @@ using Thread = std::array<Operation, 2>;
 struct Litmus {
   std::string name;
   std::vector<Thread> threads;  // 2 or 4
+  bool atomic = false;          // nothing but atomic operations
 };
 
 Operation load(uint32_t location, uint32_t slot) {
@@ -51,6 +52,9 @@ const std::vector<Litmus> coherenceTests = {
     {"CoRW", {{load(x, 0), store(x, 1)}, {store(x, 2), {}}}},
     {"CoWR", {{store(x, 1), load(x, 0)}, {store(x, 2), {}}}},
     {"CoWW", {{store(x, 1), store(x, 2)}, {load(x, 0), load(x, 1)}}},
+    {"RMW", {{add(Kind::Add, 0), add(Kind::Add, 1)}, {add(Kind::Add, 2), add(Kind::Add, 3)}}, true},
+    {"plain RMW",
+     {{add(Kind::PlainAdd, 0), add(Kind::PlainAdd, 1)}, {add(Kind::PlainAdd, 2), add(Kind::PlainAdd, 3)}}},
 };
 // What was written before a flag is there for whoever has seen the flag.
 const std::vector<Litmus> publishTests = {
@@ -127,86 +131,89 @@ std::string name(Stages stages) {
   return stages == Stages::Compute ? "CS-CS" : stages == Stages::Fragment ? "FS-FS" : "VS-FS";
 }
 
-struct Variant {
-  Stages stages = Stages::Compute;
-  std::string qualifier = "coherent";
-  bool barrier = true;
+// What one test came to with a barrier between its operations, and without.
+struct WithAndWithout {
+  Counts with;
+  Counts without;
 };
 
-constexpr size_t instances = 32768;
-
-gl::ShaderDefines defines(const Variant& variant, size_t lanes, const Patches& patches) {
-  gl::ShaderDefines all = patches.defines();
-  all.insert(all.end(), {{"QUALIFIER", variant.qualifier},
-                         {"INSTANCES", std::to_string(instances) + "u"},
-                         {"LANES", std::to_string(lanes) + "u"},
-                         {"ROUNDS", std::to_string(instances / lanes) + "u"}});
-  if (variant.barrier) all.emplace_back("WITH_BARRIER", "1");
-  return all;
+constexpr uint32_t placeX(uint32_t instance, uint32_t seed, uint32_t instances) {
+  return (instance * 40503u + seed) % instances;
+}
+constexpr uint32_t placeY(uint32_t instance, uint32_t seed, uint32_t instances) {
+  return instances + (instance * 27191u + seed * 3u) % instances;
 }
 
-// Runs the test once in all instances. `seed` varies places, delays and stress.
-Counts run(const Context& context, const Litmus& test, const Variant& variant, uint32_t seed) {
-  constexpr size_t lanes = 512;
-  const size_t perInstance = test.threads.size() / 2;
-  const gl::Buffer memory = zeroWords(context.device, instances * 2 + 4096);
-  const gl::Buffer results = zeroWords(context.device, instances * 4);
-  const gl::Buffer meeting = zeroWords(context.device, 4 + lanes);
-  std::array<uint32_t, 11> parameters{};
-  for (size_t t = 0; t < test.threads.size(); ++t)
-    for (size_t i = 0; i < 2; ++i) parameters[t * 2 + i] = test.threads[t][i].packed();
-  parameters[8] = seed;
-  parameters[9] = seed & 1u;
-  parameters[10] = static_cast<uint32_t>(test.threads.size());
+// Runs all tests, each in many instances, and adds to `counts`. `seed` varies places, delays and stress.
+void run(const Context& context, const std::vector<Litmus>& tests, Stages stages, const char* qualifier,
+         uint32_t seed, std::vector<WithAndWithout>& counts) {
+  const Patches patches{.grid = stages == Stages::VertexFragment ? 1u : 2u, .patch = 16};
+  const auto lanes = static_cast<uint32_t>(stages == Stages::VertexFragment ? patches.pixels() : 512);
+  const auto instances = static_cast<uint32_t>(sized(context, 32768, 65536));
+  const gl::Buffer memory = zeroWords(context.device, size_t{instances} * 2 + 4096);
+  const gl::Buffer results = zeroWords(context.device, size_t{instances} * 4);
+  const gl::Buffer meeting = zeroWords(context.device, 5 + lanes);
+  std::vector<uint32_t> parameters = {seed, seed & 1u, static_cast<uint32_t>(tests.size())};
+  for (const Litmus& test : tests) {
+    for (size_t t = 0; t < 4; ++t)
+      for (size_t i = 0; i < 2; ++i)
+        parameters.push_back(t < test.threads.size() ? test.threads[t][i].packed() : 0);
+    parameters.push_back(static_cast<uint32_t>(test.threads.size()));
+  }
   const gl::Buffer described(context.device, "validation", std::span<const uint32_t>(parameters));
   memory.bindStorage(0);
   results.bindStorage(1);
   meeting.bindStorage(2);
   described.bindStorage(3);
-  switch (variant.stages) {
-    case Stages::Compute: {
-      const gl::Program& program = probeProgram(context, {"litmus.comp"}, defines(variant, lanes, {}));
-      gl::dispatch(program, {2 * lanes / 64, 1, 1});
+  gl::ShaderDefines defines = patches.defines();
+  defines.insert(defines.end(), {{"QUALIFIER", qualifier},
+                                 {"LANES", std::to_string(lanes) + "u"},
+                                 {"ROUNDS", std::to_string(instances / lanes) + "u"}});
+  switch (stages) {
+    case Stages::Compute:
+      gl::dispatch(probeProgram(context, {"litmus.comp"}, defines), {2 * lanes / 64, 1, 1});
       break;
-    }
-    case Stages::Fragment: {
-      const Patches patches{.patch = 16};
-      const gl::Program& program =
-          probeProgram(context, {"layers.vert", "litmus.frag"}, defines(variant, lanes, patches));
-      drawPatches(context.device, program, patches);
+    case Stages::Fragment:
+      drawPatches(context.device, probeProgram(context, {"layers.vert", "litmus.frag"}, defines), patches);
       break;
-    }
     case Stages::VertexFragment: {
-      const Patches patches{.grid = 1, .patch = 16};
-      gl::ShaderDefines these = defines(variant, patches.pixels(), patches);
-      these.emplace_back("VERTICES", "1");
-      const gl::Program& fragments = probeProgram(context, {"layers.vert", "litmus.frag"}, these);
-      const gl::Program& vertices = probeProgram(context, {"litmus.vert", "nothing.frag"}, these);
+      defines.emplace_back("VERTICES", "1");
+      const gl::Program& fragments = probeProgram(context, {"layers.vert", "litmus.frag"}, defines);
+      const gl::Program& vertices = probeProgram(context, {"litmus.vert", "nothing.frag"}, defines);
       drawPatches(context.device, fragments, patches);
       gl::flush();  // so that the fragments can be on their way while the vertices are
       const gl::Framebuffer nothing(glm::ivec2(64));
       gl::setDrawState({.program = &vertices, .target = &nothing, .viewport = {0, 0, 64, 64}});
-      gl::drawGenerated(context.device, patches.pixels(), 1, gl::Primitive::Points);
+      gl::drawGenerated(context.device, lanes, 1, gl::Primitive::Points);
       break;
     }
   }
   gl::storageBarrier();
 
-  std::set<Ending> possible;
-  interleave(test, {}, {}, possible);
-  const std::set<Ending> sequential = oneByOne(test);
-  const auto words = memory.readValues<uint32_t>(instances * 2);
-  const auto told = results.readValues<uint32_t>(instances * 4);
-  std::map<Ending, int64_t> seen;
-  for (uint32_t i = 0; i < instances / perInstance; ++i)
-    ++seen[{told[i * 4], told[i * 4 + 1], told[i * 4 + 2], told[i * 4 + 3],
-            words[(i * 40503u + seed) % instances], words[instances + (i * 27191u + seed * 3u) % instances]}];
-  Counts counts;
-  for (const auto& [ending, times] : seen)
-    (sequential.count(ending) != 0 ? counts.sequential
-     : possible.count(ending) != 0 ? counts.interleaved
-                                   : counts.forbidden) += times;
-  return counts;
+  const auto words = memory.readValues<uint32_t>(size_t{instances} * 2);
+  const auto told = results.readValues<uint32_t>(size_t{instances} * 4);
+  for (uint32_t t = 0; t < tests.size(); ++t) {
+    const Litmus& test = tests[t];
+    std::set<Ending> possible;
+    interleave(test, {}, {}, possible);
+    const std::set<Ending> sequential = oneByOne(test);
+    const auto own = static_cast<uint32_t>(lanes * 2 / test.threads.size());
+    for (uint32_t round = t; round < instances / lanes; round += static_cast<uint32_t>(tests.size())) {
+      const bool barrier = round / tests.size() % 2 == 0;
+      Counts& these = barrier ? counts[t].with : counts[t].without;
+      for (uint32_t i = round * lanes; i < round * lanes + own; ++i) {
+        const Ending ending = {told[i * 4],
+                               told[i * 4 + 1],
+                               told[i * 4 + 2],
+                               told[i * 4 + 3],
+                               words[placeX(i, seed, instances)],
+                               words[placeY(i, seed, instances)]};
+        ++(sequential.count(ending) != 0 ? these.sequential
+           : possible.count(ending) != 0 ? these.interleaved
+                                         : these.forbidden);
+      }
+    }
+  }
 }
 
 std::string told(const Counts& counts) {
@@ -214,105 +221,78 @@ std::string told(const Counts& counts) {
                      counts.forbidden);
 }
 
-// Runs all the tests in all stages, with barriers and (for the figures) without, until each was seen
-// interleaved. `always`: what no order explains is forbidden without barriers as well.
-Result litmus(const Context& context, const std::vector<Litmus>& tests, bool always,
+// How a test is judged. What no order of operations explains is forbidden with a barrier between them; in
+// coherence tests without one as well; in a control it shows that it could have been seen.
+enum class Judged { WithBarrier, Always, Control };
+
+// Runs all tests in all stages until each has been seen to interleave, or each control to fail.
+Result litmus(const Context& context, const std::vector<Litmus>& tests, const std::vector<Judged>& judged,
               const std::string& meaning) {
   Result result;
   std::string unseen;
   auto seed = static_cast<uint32_t>(context.seed);
+  const bool controlled = std::count(judged.begin(), judged.end(), Judged::Control) != 0;
   for (const Stages stages : allStages) {
-    std::map<std::string, Counts> with;
-    std::map<std::string, Counts> without;
+    std::vector<WithAndWithout> counts(tests.size());
     std::string missing;
-    untilSeen(context, [&] {
+    untilSeen(context, 0.6, [&] {
+      for (const char* qualifier : {"coherent", "volatile"})
+        run(context, tests, stages, qualifier, ++seed, counts);
       missing.clear();
-      for (const Litmus& test : tests) {
-        Counts& counts = with[test.name];
-        if (counts.forbidden != 0) continue;
-        if (counts.interleaved != 0 && context.scale == Scale::Small) continue;
-        for (const char* qualifier : {"coherent", "volatile"}) {
-          counts += run(context, test, {stages, qualifier, true}, ++seed);
-          without[test.name] += run(context, test, {stages, qualifier, false}, ++seed);
-        }
-        if (counts.interleaved == 0 && counts.forbidden == 0)
-          missing += (missing.empty() ? "" : ", ") + test.name;
+      for (size_t t = 0; t < tests.size(); ++t) {
+        // Atomic operations of one word do not interleave: their control speaks for them.
+        const Counts& told = counts[t].with;
+        const bool seen = judged[t] == Judged::Control ? told.forbidden != 0
+                          : tests[t].atomic            ? controlled
+                                                       : told.interleaved + told.forbidden != 0;
+        if (!seen) missing += (missing.empty() ? "" : ", ") + tests[t].name;
       }
-      return missing.empty() && context.scale == Scale::Small;
+      return missing.empty();
     });
-    if (!missing.empty()) unseen += (unseen.empty() ? "" : "; ") + name(stages) + ": " + missing;
-    for (const Litmus& test : tests) {
-      const std::string label = name(stages) + " " + test.name;
-      const Counts& counts = with[test.name];
-      const Counts& loose = without[test.name];
-      result.figures.emplace_back(label, told(counts));
-      result.figures.emplace_back(label + ", no barrier", told(loose));
-      const bool looseFails = always && loose.forbidden != 0;
-      if (result.verdict != Verdict::Pass || (counts.forbidden == 0 && !looseFails)) continue;
-      const Counts& worse = counts.forbidden != 0 ? counts : loose;
+    // The engine builds lists in compute and in fragment shaders.
+    if (!missing.empty() && stages == Stages::VertexFragment)
+      result.finding = "not shown where vertices meet fragments: " + missing;
+    else if (!missing.empty())
+      unseen += (unseen.empty() ? "" : "; ") + name(stages) + ": " + missing;
+    for (size_t t = 0; t < tests.size(); ++t) {
+      const std::string label = name(stages) + " " + tests[t].name;
+      result.figures.emplace_back(label, told(counts[t].with));
+      result.figures.emplace_back(label + ", no barrier", told(counts[t].without));
+      if (judged[t] == Judged::Control || result.verdict == Verdict::Fail) continue;
+      Counts bad = counts[t].with;
+      if (judged[t] == Judged::Always) bad += counts[t].without;
+      if (bad.forbidden == 0) continue;
       result.verdict = Verdict::Fail;
-      result.finding =
-          fmt::format("{}: {} of {} instances ended as no order of their operations explains{}", label,
-                      worse.forbidden, worse.all(), counts.forbidden != 0 ? "" : " (no barrier)");
+      result.finding = fmt::format("{}: {} of {} instances ended as no order of their operations explains",
+                                   label, bad.forbidden, bad.all());
       result.meaning = meaning;
     }
   }
   if (result.verdict == Verdict::Pass && !unseen.empty()) {
     result.verdict = Verdict::NoPower;
-    result.finding = fmt::format("nothing forbidden was seen, but nothing interleaved either in {}", unseen);
+    result.finding = "nothing forbidden was seen, but no operations in between either: " + unseen;
     result.meaning = "nothing, good or bad: these never ran closely enough side by side here";
   }
   return result;
 }
 
 Result litmusCoherence(const Context& context) {
-  Result result =
-      litmus(context, coherenceTests, true, "reads of one word go backwards: no list can be trusted here");
-  // Additions of both threads to one word: none is lost. Where plain ones are lost, that could have been
-  // seen.
-  const Litmus atomic{"RMW",
-                      {{add(Kind::Add, 0), add(Kind::Add, 1)}, {add(Kind::Add, 2), add(Kind::Add, 3)}}};
-  Litmus plain = atomic;
-  for (Thread& thread : plain.threads)
-    for (Operation& operation : thread) operation.kind = Kind::PlainAdd;
-  auto seed = static_cast<uint32_t>(context.seed);
-  std::string powerless;
-  for (const Stages stages : allStages) {
-    Counts counts;
-    Counts control;
-    const bool seen = untilSeen(context, [&] {
-      counts += run(context, atomic, {stages, "coherent", false}, ++seed);
-      control += run(context, plain, {stages, "coherent", false}, ++seed);
-      return control.forbidden != 0 || counts.forbidden != 0;
-    });
-    if (!seen) powerless += (powerless.empty() ? "" : ", ") + name(stages);
-    result.figures.emplace_back(name(stages) + " RMW", told(counts));
-    result.figures.emplace_back(name(stages) + " RMW, plain", told(control));
-    if (result.verdict != Verdict::Fail && counts.forbidden != 0) {
-      result.verdict = Verdict::Fail;
-      result.finding = fmt::format("{} RMW: additions were lost in {} of {} instances", name(stages),
-                                   counts.forbidden, counts.all());
-      result.meaning = "atomic operations are not atomic: no list can be trusted here";
-    }
-  }
-  if (result.verdict == Verdict::Pass && !powerless.empty()) {
-    result.verdict = Verdict::NoPower;
-    result.finding = "plain additions were not lost either in " + powerless;
-    result.meaning = "nothing, good or bad: these never ran closely enough side by side here";
-  }
-  return result;
+  return litmus(
+      context, coherenceTests,
+      {Judged::Always, Judged::Always, Judged::Always, Judged::Always, Judged::Always, Judged::Control},
+      "operations of one word have no order, or lose each other: no list can be trusted here");
 }
 
 Result litmusPublish(const Context& context) {
   return litmus(
-      context, publishTests, false,
+      context, publishTests, std::vector(publishTests.size(), Judged::WithBarrier),
       "what was written before a flag, a barrier between, is not there for who has seen the flag: no list "
       "can be built and read in one pass");
 }
 
 Result litmusOrder(const Context& context) {
   return litmus(
-      context, orderTests, false,
+      context, orderTests, std::vector(orderTests.size(), Judged::WithBarrier),
       "a barrier does not hold a thread until its writes are seen: who needs that (Dekker's lock, say) "
       "uses atomics; the engine does");
 }
