@@ -5,15 +5,18 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <list>
+#include <span>
 
 #include "base/error.h"
 
@@ -98,8 +101,10 @@ class Child {
     if (pid_ < 0)
       base::fail(base::ExitCode::Bug, "validate: a check cannot be started: {}", std::strerror(errno));
     if (pid_ == 0) become(arguments, out.write.number(), err.write.number(), signals, parent);
+    process_ = Stream(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
     out_ = std::move(out.read);
     err_ = std::move(err.read);
+    for (const Stream* stream : {&out_, &err_}) fcntl(stream->number(), F_SETFL, O_NONBLOCK);
   }
   Child(Child&&) = delete;
   ~Child() {
@@ -108,17 +113,24 @@ class Child {
 
   size_t index() const { return index_; }
   double seconds() const { return secondsSince(start_); }
-  bool isOpen() const { return out_.number() >= 0 || err_.number() >= 0; }
-  std::vector<pollfd> polled() const { return {{out_.number(), POLLIN, 0}, {err_.number(), POLLIN, 0}}; }
+  bool hasEnded() const { return hasEnded_; }
+  std::array<pollfd, 3> polled() const {
+    return {{{out_.number(), POLLIN, 0}, {err_.number(), POLLIN, 0}, {process_.number(), POLLIN, 0}}};
+  }
 
-  void read(const pollfd* polled) {
-    if (polled[0].revents != 0) append(out_, ended_.out);
-    if (polled[1].revents != 0) append(err_, ended_.err);
+  // Takes what it wrote, once it is known what has happened.
+  void read(std::span<const pollfd> polled) {
+    if (polled[2].revents != 0) hasEnded_ = true;
+    append(out_, ended_.out);
+    append(err_, ended_.err);
   }
 
   // Waits for it, or kills it first where `how` says so.
   Ended end(Ended::How how = Ended::How::Interrupted) {
-    if (how != Ended::How::Exited) kill(pid_, SIGKILL);
+    if (how != Ended::How::Exited) {
+      kill(-pid_, SIGKILL);  // and what it has started itself
+      kill(pid_, SIGKILL);
+    }
     int status = 0;
     while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
     }
@@ -149,15 +161,21 @@ class Child {
 
   static void append(Stream& stream, std::string& text) {
     char bytes[4096];
-    const ssize_t count = ::read(stream.number(), bytes, sizeof bytes);
-    if (count > 0)
-      text.append(bytes, static_cast<size_t>(count));
-    else if (count == 0 || errno != EINTR)
-      stream.close();
+    while (stream.number() >= 0) {
+      const ssize_t count = ::read(stream.number(), bytes, sizeof bytes);
+      if (count > 0)
+        text.append(bytes, static_cast<size_t>(count));
+      else if (count == 0 || errno != EINTR) {
+        if (count == 0 || errno != EAGAIN) stream.close();
+        return;
+      }
+    }
   }
 
   const size_t index_;
   pid_t pid_ = 0;
+  bool hasEnded_ = false;
+  Stream process_{-1};
   Stream out_{-1};
   Stream err_{-1};
   Ended ended_;
@@ -174,10 +192,10 @@ bool wait(std::list<Child>& children, double timeoutSeconds, int interruption) {
   }
   const int milliseconds = static_cast<int>(std::clamp(left, 0.0, 1e6) * 1000) + 1;
   if (poll(streams.data(), streams.size(), milliseconds) <= 0) return false;
-  const pollfd* polled = streams.data() + 1;
+  std::span<const pollfd> polled = std::span(streams).subspan(1);
   for (Child& child : children) {
-    child.read(polled);
-    polled += 2;
+    child.read(polled.first(3));
+    polled = polled.subspan(3);
   }
   return streams.front().revents != 0;
 }
@@ -199,8 +217,8 @@ bool runCommands(const std::vector<Command>& commands, int jobs, double timeoutS
       return false;
     }
     for (auto child = children.begin(); child != children.end();) {
-      const bool late = child->isOpen() && child->seconds() >= timeoutSeconds;
-      if (child->isOpen() && !late) {
+      const bool late = !child->hasEnded() && child->seconds() >= timeoutSeconds;
+      if (!child->hasEnded() && !late) {
         ++child;
         continue;
       }

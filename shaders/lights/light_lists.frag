@@ -28,7 +28,8 @@ void main() {
     uint node = listAllocate();
     if (node != 0u) {
       backDepths[node] = range.y;
-      listInsert(uint(cell.y * params.cells.x + cell.x), node, range.x, vLight, 0u);
+      ivec2 place = cell - params.window.xy;
+      listInsert(uint(place.y * params.window.z + place.x), node, range.x, vLight, 0u);
     }
   }
 }

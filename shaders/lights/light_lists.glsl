@@ -14,7 +14,10 @@ layout(std430, binding = STORAGE_LIGHT_CELL_PAYLOADS) readonly buffer LightCellB
 
 const int LIGHT_CELL_SIDE = 4;  // pixels
 
-uint lightCell(ivec2 pixel, int width) {
-  int cellsAcross = (width + LIGHT_CELL_SIDE - 1) / LIGHT_CELL_SIDE;
-  return uint((pixel.y / LIGHT_CELL_SIDE) * cellsAcross + pixel.x / LIGHT_CELL_SIDE);
+// The cell of a pixel of the image; `window`: the pixels that have lists (ViewParams).
+uint lightCell(ivec2 pixel, ivec4 window) {
+  ivec2 first = window.xy / LIGHT_CELL_SIDE;
+  int cellsAcross = (window.x + window.z + LIGHT_CELL_SIDE - 1) / LIGHT_CELL_SIDE - first.x;
+  ivec2 cell = pixel / LIGHT_CELL_SIDE - first;
+  return uint(cell.y * cellsAcross + cell.x);
 }

@@ -166,24 +166,15 @@ vec3 scattered(Steps steps, PixelRay ray) {
 }
 #endif
 
-// Where the step that begins at `depth` ends. Steps stand at multiples of the stride from where the ray enters the media
-// and are cut at `limit` (a surface), so that adding a pane does not move them.
-float nextStep(float depth, float entry, float stride, float limit) {
-  float index = floor((depth - entry) / stride + 1e-3);
-  float to = min(entry + (index + 1.0) * stride, limit);
-  if (to <= depth) to = min(depth + stride, limit);
-  return to > depth ? to : limit;  // a stride below the rounding of the depth
-}
-
 // Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
 struct RayPlace {
-  ivec2 pixel;
+  ivec2 pixel;  // of the image
   int number;  // of the sample
   bool split;
 };
 
 RayPlace rayPlace(uint ray) {
-  uint pixels = uint(view.size.x * view.size.y);
+  uint pixels = uint(view.window.z * view.window.w);
   uint pixel = ray;
   int number = 0;
   bool split = false;
@@ -194,7 +185,8 @@ RayPlace rayPlace(uint ray) {
     number = 1 + int((ray - pixels) % uint(SAMPLES - 1));
     split = true;
   }
-  return RayPlace(ivec2(int(pixel) % view.size.x, int(pixel) / view.size.x), number, split);
+  ivec2 place = ivec2(int(pixel) % view.window.z, int(pixel) / view.window.z);
+  return RayPlace(view.window.xy + place, number, split);
 }
 
 void main() {
@@ -204,15 +196,16 @@ void main() {
   float depth = first ? view.depthRange.x : rays[number].depth;
   if (depth >= FINISHED) return;
   RayPlace place = rayPlace(number);
-  uint node = first ? listHeads[place.pixel.y * view.size.x + place.pixel.x] : rays[number].node;
+  uint node = first ? listHeads[listOfPixel(view, place.pixel)] : rays[number].node;
   vec3 radiance = first ? vec3(0.0) : vec3(rays[number].radianceR, rays[number].radianceG, rays[number].radianceB);
   vec3 throughput = first ? vec3(1.0) : vec3(rays[number].throughputR, rays[number].throughputG, rays[number].throughputB);
 
   // Surfaces are told at the pixel's centre; a sample's ray meets their plane elsewhere.
   vec2 centre = imagePlane(view, vec2(place.pixel) + 0.5);
   vec2 plane = place.split ? imagePlane(view, vec2(place.pixel) + samplePosition(params, place.number)) : centre;
-  float opaque = texelFetch(opaqueDepth, place.pixel, place.number).r;
-  uvec4 opaqueWords = texelFetch(opaqueSurface0, place.pixel, place.number);
+  ivec2 texel = place.pixel - view.tile.xy;
+  float opaque = texelFetch(opaqueDepth, texel, place.number).r;
+  uvec4 opaqueWords = texelFetch(opaqueSurface0, texel, place.number);
   if (place.split && opaque < NOTHING_SEEN) {
     vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(opaqueWords.y));
     opaque = depthOnPlane(view, normal, centre, opaque, plane);
@@ -224,12 +217,11 @@ void main() {
   ray.origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
   ray.perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
   ray.towardsViewer = -normalize(ray.perDepth);
-  ray.cell = lightCell(place.pixel, view.size.x);
+  ray.cell = lightCell(place.pixel, view.window);
 
 #ifdef SMOKE
   float metresPerDepth = length(ray.perDepth);
-  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd));
-  float stride = params.march.x / metresPerDepth;
+  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
 #endif
 
   bool walking = true;
@@ -251,7 +243,7 @@ void main() {
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
     while (depth < limit && steps.count < STEPS && work < uint(RESOLVE_WORK_LIMIT)) {
       ++work;
-      float to = nextStep(depth, media.rangeOfAll.x, stride, limit);
+      float to = stepEnd(media, depth, limit);
       float middle = 0.5 * (depth + to);
       float scattered[VOLUME_COUNT];
       float sigmaT = 0.0;
@@ -284,7 +276,7 @@ void main() {
       node = listLinks[node].next;
     } else if (atSurface) {
       if (opaque < view.depthRange.y) {
-        uvec4 more = texelFetch(opaqueSurface1, place.pixel, place.number);
+        uvec4 more = texelFetch(opaqueSurface1, texel, place.number);
         PackedSurface stored = PackedSurface(opaqueWords.x, opaqueWords.y, opaqueWords.z, opaqueWords.w, more.x, more.y,
                                              more.z, more.w, 0u, more.w & 0xffff0000u);
         radiance += throughput * shadeSurface(unpackSurface(stored), ray, opaque);

@@ -10,18 +10,18 @@ layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer Payloads {
 };
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 texel = ivec2(gl_FragCoord.xy);  // of the tile's G-buffer
   float depth = fragmentDepth();
   vec4 base = baseColour();
   // Derivatives are taken before the flow diverges.
   PackedSurface surface = packSurface(base);
   float opaque = 0.0;
-  for (int i = 0; i < SAMPLES; ++i) opaque = max(opaque, texelFetch(opaqueDepth, pixel, i).r);
-  if (base.a > 0.0 && depth < opaque) {
+  for (int i = 0; i < SAMPLES; ++i) opaque = max(opaque, texelFetch(opaqueDepth, texel, i).r);
+  if (base.a > 0.0 && depth < opaque && hasList(view, texel + view.tile.xy)) {
     uint node = listAllocate();
     if (node != 0u) {
       payloads[node] = surface;
-      listInsert(uint(view.size.z + pixel.y * view.size.x + pixel.x), node, depth, fragmentId(), 0u);
+      listInsert(listOfPixel(view, texel + view.tile.xy), node, depth, fragmentId(), 0u);
     }
   }
 }

@@ -20,7 +20,7 @@ struct RayState {
 };
 
 struct ResolveParams {
-  vec4 march;      // x: step, m; y: throughput below which the rest is not looked at
+  vec4 march;      // x: step, voxels; y: throughput below which the rest is not looked at
   ivec4 options;   // x: 1 when this is the first dispatch; y: 1 when smoke looks shadows up bilinearly;
                    // z: directional lights; w: rays
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
