@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -297,6 +299,202 @@ Result litmusOrder(const Context& context) {
       "uses atomics; the engine does");
 }
 
+constexpr size_t apiWords = 64;  // a round: the alignment that every driver allows in bytes, as words
+constexpr size_t apiRounds = 16;
+
+using Words = std::vector<uint32_t>;
+
+// One way in which the API reads what a shader wrote.
+struct Use {
+  std::string name;
+  gl::Reader reader;
+  std::function<Words(uint32_t round)> wanted;          // what the shader writes
+  std::function<Words(const Words& wanted)> found;      // what is then found
+  std::function<void(const gl::Buffer& written)> read;  // binding 2 is the place for what is found
+};
+
+Words padded(Words words) {
+  words.resize(apiWords, 0);
+  return words;
+}
+
+// Rounds in which something else was found than what had been written just before.
+int64_t stale(const Context& context, const Use& use, bool barrier) {
+  Words wanted;
+  Words expected;
+  for (uint32_t round = 0; round < apiRounds; ++round) {
+    const Words words = padded(use.wanted(round));
+    const Words found = padded(use.found(words));
+    wanted.insert(wanted.end(), words.begin(), words.end());
+    expected.insert(expected.end(), found.begin(), found.end());
+  }
+  const gl::Buffer source(context.device, "validation", std::span<const uint32_t>(wanted));
+  const gl::Buffer written = zeroWords(context.device, apiWords);
+  const gl::Buffer found = zeroWords(context.device, expected.size());
+  const gl::Program& writer = probeProgram(context, {"api_write.comp"});
+  for (size_t round = 0; round < apiRounds; ++round) {
+    const size_t offset = round * apiWords * sizeof(uint32_t);
+    source.bindStorageRange(0, offset, apiWords * sizeof(uint32_t));
+    found.bindStorageRange(2, offset, apiWords * sizeof(uint32_t));
+    written.bindStorage(1);
+    gl::dispatch(writer, {1, 1, 1});
+    if (barrier) gl::barrierBefore(use.reader);
+    use.read(written);
+    gl::storageBarrier();
+  }
+  const auto told = found.readValues<uint32_t>(expected.size());
+  int64_t wrong = 0;
+  for (size_t round = 0; round < apiRounds; ++round)
+    wrong += !std::equal(told.begin() + static_cast<long>(round * apiWords),
+                         told.begin() + static_cast<long>((round + 1) * apiWords),
+                         expected.begin() + static_cast<long>(round * apiWords));
+  return wrong;
+}
+
+Result apiBarrier(const Context& context) {
+  gl::Device& device = context.device;
+  const gl::Framebuffer nothing(glm::ivec2(64));
+  const auto prepareDraw = [&](const char* what) {
+    gl::setDrawState({.program = &probeProgram(context, {"api_read.vert", "nothing.frag"}, {{what, "1"}}),
+                      .target = &nothing,
+                      .viewport = {0, 0, 64, 64}});
+  };
+  const auto compute = [&](const char* what) {
+    gl::dispatch(probeProgram(context, {"api_read.comp"}, {{what, "1"}}), {1, 1, 1});
+  };
+  const auto counting = [](uint32_t round) {
+    Words words(apiWords);
+    for (uint32_t i = 0; i < apiWords; ++i) words[i] = round * 1000 + i + 1;
+    return words;
+  };
+  const auto asTheyAre = [](const Words& words) { return words; };
+  const gl::VertexAttribute value{.location = 0, .floats = 1, .offset = 0};
+  Words inOrder(63);
+  for (uint32_t i = 0; i < inOrder.size(); ++i) inOrder[i] = i;
+  const gl::Buffer indices(device, "validation", std::span<const uint32_t>(inOrder));
+  const gl::Buffer vertices = zeroWords(device, apiWords);
+  gl::Texture texture(device, "validation", {.format = gl::Format::R32UI, .size = {apiWords, 1, 1}});
+  gl::Buffer found = zeroWords(device, apiWords);
+
+  std::vector<Use> uses = {
+      {"storage block", gl::Reader::Storage, counting, asTheyAre,
+       [&](const gl::Buffer&) { compute("READ_STORAGE"); }},
+      {"uniform block", gl::Reader::Uniform, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         written.bindUniform(0);
+         compute("READ_UNIFORM");
+       }},
+      {"buffer texture", gl::Reader::TextureFetch, counting,
+       [](Words words) {
+         words.back() = 0;  // 21 texels of three
+         return words;
+       },
+       [&](const gl::Buffer& written) {
+         const gl::BufferTexture view(device, written, gl::BufferFormat::RGB32UI);
+         view.bind(0);
+         compute("READ_BUFFER_TEXTURE");
+       }},
+      {"pixel transfer", gl::Reader::PixelUnpack, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         texture.copyFrom(written);
+         texture.bind(0);
+         compute("READ_TEXTURE");
+       }},
+      {"copy", gl::Reader::Update, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         found.copyFrom(written, apiWords * sizeof(uint32_t));
+         found.bindStorage(1);
+         compute("READ_STORAGE");
+       }},
+      {"mapping", gl::Reader::Update, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         Words words(apiWords);
+         written.readMapped(std::as_writable_bytes(std::span(words)));
+         found.write(std::as_bytes(std::span(words)));
+         found.bindStorage(1);
+         compute("READ_STORAGE");
+       }},
+      {"dispatch command", gl::Reader::IndirectCommand,
+       [](uint32_t round) {
+         return Words{round % 7 + 1, 1, 1};
+       },
+       [](const Words& words) { return Words{words[0]}; },
+       [&](const gl::Buffer& written) {
+         gl::dispatchIndirect(probeProgram(context, {"api_read.comp"}), written);
+       }},
+  };
+  if (device.limits().vertexStorageBlocks > 0) {
+    uses.push_back({"vertices", gl::Reader::VertexFetch,
+                    [](uint32_t round) {
+                      Words words(apiWords);
+                      for (uint32_t i = 0; i < 63; ++i) {
+                        const auto number = static_cast<float>(round * 1000 + i + 1);
+                        std::memcpy(&words[i], &number, sizeof number);
+                      }
+                      return words;
+                    },
+                    [](const Words& words) {
+                      Words numbers(63);
+                      for (size_t i = 0; i < numbers.size(); ++i) {
+                        float number = 0;
+                        std::memcpy(&number, &words[i], sizeof number);
+                        numbers[i] = static_cast<uint32_t>(number);
+                      }
+                      return numbers;
+                    },
+                    [&](const gl::Buffer& written) {
+                      const gl::VertexArray array(device, written, 4, std::span(&value, 1), indices, 1, 1);
+                      prepareDraw("READ_VERTICES");
+                      gl::drawIndexed(array, {.indices = 63});
+                    }});
+    uses.push_back({"indices", gl::Reader::IndexFetch,
+                    [](uint32_t round) {
+                      return Words{round % 60, round % 60 + 1, round % 60 + 2};
+                    },
+                    [](const Words& words) {
+                      Words met(apiWords, 0);
+                      for (size_t i = 0; i < 3; ++i) met[words[i]] = 1;
+                      return met;
+                    },
+                    [&](const gl::Buffer& written) {
+                      const gl::VertexArray array(device, vertices, 4, std::span(&value, 1), written, 1, 1);
+                      prepareDraw("READ_INDICES");
+                      gl::drawIndexed(array, {.indices = 3});
+                    }});
+    uses.push_back({"draw command", gl::Reader::IndirectCommand,
+                    [](uint32_t round) {
+                      return Words{3, round % 7 + 1, 0, 0};
+                    },
+                    [](const Words& words) { return Words{words[1]}; },
+                    [&](const gl::Buffer& written) {
+                      prepareDraw("READ_INSTANCES");
+                      gl::drawIndirect(device, written);
+                    }});
+  }
+
+  Result result;
+  std::string bad;
+  int64_t without = 0;
+  for (const Use& use : uses) {
+    const int64_t wrong = stale(context, use, true);
+    const int64_t loose = stale(context, use, false);
+    without += loose;
+    if (wrong != 0) bad += (bad.empty() ? "" : ", ") + use.name;
+    result.figures.emplace_back(use.name + ": stale", wrong);
+    result.figures.emplace_back(use.name + ": stale without barrier", loose);
+  }
+  if (!bad.empty())
+    return {Verdict::Fail, "old data after the barrier as: " + bad,
+            "what a shader wrote cannot be used so without waiting for it to end (glFinish)",
+            std::move(result.figures)};
+  if (without == 0)
+    return {Verdict::NoPower,
+            fmt::format("new data was read in all {} ways, with the barriers and without", uses.size()),
+            "barriers are not needed here, so that it cannot be shown that they work: keep them",
+            std::move(result.figures)};
+  return result;
+}
+
 }  // namespace
 
 std::vector<Check> memoryModelChecks() {
@@ -320,6 +518,12 @@ std::vector<Check> memoryModelChecks() {
        {},
        {"SWAPPED"},
        litmusOrder},
+      {"api-barrier",
+       "memory-model",
+       "what a shader wrote to a buffer is there for ten other ways of reading it after their barrier",
+       all,
+       {"NO_WRITE"},
+       apiBarrier},
   };
 }
 
