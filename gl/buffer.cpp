@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/error.h"
 
@@ -81,6 +82,16 @@ void Buffer::read(std::span<std::byte> bytes, size_t offset) const {
   glBindBuffer(GL_COPY_READ_BUFFER, name());
   glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset),
                      static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+void Buffer::readMapped(std::span<std::byte> bytes) const {
+  base::check(bytes.size() <= bytes_, "a read stays inside its buffer");
+  glBindBuffer(GL_COPY_READ_BUFFER, name());
+  const void* mapped =
+      glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), GL_MAP_READ_BIT);
+  if (mapped == nullptr) fail(ExitCode::Memory, "{}: the driver cannot map it", label_);
+  std::memcpy(bytes.data(), mapped, bytes.size());
+  glUnmapBuffer(GL_COPY_READ_BUFFER);
 }
 
 void Buffer::bindStorage(unsigned binding) const {

@@ -55,6 +55,9 @@ class Buffer {
     return readValues<T>(1).front();
   }
 
+  // The same through a mapping.
+  void readMapped(std::span<std::byte> bytes) const;
+
   void bindStorage(unsigned binding) const;
   // `offset` is a multiple of 256.
   void bindStorageRange(unsigned binding, size_t offset, size_t bytes) const;

@@ -113,6 +113,30 @@ void imageBarrier() {
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
+void barrierBefore(Reader reader) {
+  constexpr GLbitfield bits[] = {GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT,
+                                 GL_ELEMENT_ARRAY_BARRIER_BIT,
+                                 GL_COMMAND_BARRIER_BIT,
+                                 GL_UNIFORM_BARRIER_BIT,
+                                 GL_TEXTURE_FETCH_BARRIER_BIT,
+                                 GL_PIXEL_BUFFER_BARRIER_BIT,
+                                 GL_BUFFER_UPDATE_BARRIER_BIT,
+                                 GL_SHADER_STORAGE_BARRIER_BIT};
+  glMemoryBarrier(bits[static_cast<int>(reader)]);
+}
+
+void drawIndirect(const Device& device, const Buffer& commands) {
+  glBindVertexArray(device.emptyVertexArray());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
+  glDrawArraysIndirect(GL_TRIANGLES, nullptr);
+}
+
+void dispatchIndirect(const Program& program, const Buffer& groups) {
+  glUseProgram(program.name());
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.name());
+  glDispatchComputeIndirect(0);
+}
+
 void flush() {
   glFlush();
 }

@@ -82,6 +82,26 @@ void storageBarrier();
 // What shaders wrote to images becomes visible to later image accesses and to Texture::read().
 void imageBarrier();
 
+// What reads a buffer, or a texture, that shaders have written to.
+enum class Reader {
+  VertexFetch,
+  IndexFetch,
+  IndirectCommand,
+  Uniform,
+  TextureFetch,
+  PixelUnpack,
+  Update,
+  Storage
+};
+// What shaders wrote becomes visible to this kind of reader. Update: copies, reads, writes and mappings of
+// buffers.
+void barrierBefore(Reader reader);
+
+// Triangles with vertices made by the shader; `commands` holds the counts: vertices, instances, 0, 0.
+void drawIndirect(const Device& device, const Buffer& commands);
+// Workgroups in x, y and z as the first three words of `groups` say.
+void dispatchIndirect(const Program& program, const Buffer& groups);
+
 // Starts what was asked for so far, without waiting for it.
 void flush();
 

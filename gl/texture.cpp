@@ -153,6 +153,16 @@ void Texture::bindImage(unsigned unit) const {
   glBindImageTexture(unit, name(), 0, GL_TRUE, 0, GL_READ_WRITE, traits(format_).internal);
 }
 
+void Texture::copyFrom(const Buffer& texels) {
+  base::check(target_ == GL_TEXTURE_2D, "a buffer fills a 2D texture");
+  const FormatTraits format = traits(format_);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(target_, name());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, texels.name());
+  glTexSubImage2D(target_, 0, 0, 0, size_.x, size_.y, format.layout, format.type, nullptr);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
 void Texture::read(std::span<std::byte> texels) const {
   base::check(texels.size() == bytes_, "a texture is read whole");
   bind(0);

@@ -56,6 +56,8 @@ class Texture {
   void bind(unsigned unit) const;
   // For image loads, stores and atomics of shaders, in the texture's own format.
   void bindImage(unsigned unit) const;
+  // Takes all texels from the start of a buffer, in that order.
+  void copyFrom(const Buffer& texels);
   // Reads back all texels, in the order in which the constructor takes them; not of multisample textures.
   void read(std::span<std::byte> texels) const;
 

@@ -276,7 +276,7 @@ Result lockHash(const Context& context) {
        .fragments = true,
        .patches = patches}};
   if (!tally.bad())
-    untilSeen(context, [&] {
+    untilSeen(context, 0.8, [&] {
       for (LockCase& probe : between) {
         tally.add(probe, run(context, probe));
         lostBetween += run(context, probe, "LOCK").lost;
@@ -327,7 +327,7 @@ Result lockPublish(const Context& context) {
   int64_t tornWithoutBarrier = 0;
   int64_t tornWithoutLock = 0;
   int64_t tornPlain = 0;
-  const bool seen = untilSeen(context, [&] {
+  const bool seen = untilSeen(context, 0.8, [&] {
     for (const char* qualifier : {"coherent", "volatile", ""}) {
       probe.name = probe.qualifier = qualifier;
       const LockRun locked = run(context, probe);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -30,6 +32,7 @@ using Thread = std::array<Operation, 2>;
 struct Litmus {
   std::string name;
   std::vector<Thread> threads;  // 2 or 4
+  bool atomic = false;          // nothing but atomic operations
 };
 
 Operation load(uint32_t location, uint32_t slot) {
@@ -51,6 +54,9 @@ const std::vector<Litmus> coherenceTests = {
     {"CoRW", {{load(x, 0), store(x, 1)}, {store(x, 2), {}}}},
     {"CoWR", {{store(x, 1), load(x, 0)}, {store(x, 2), {}}}},
     {"CoWW", {{store(x, 1), store(x, 2)}, {load(x, 0), load(x, 1)}}},
+    {"RMW", {{add(Kind::Add, 0), add(Kind::Add, 1)}, {add(Kind::Add, 2), add(Kind::Add, 3)}}, true},
+    {"plain RMW",
+     {{add(Kind::PlainAdd, 0), add(Kind::PlainAdd, 1)}, {add(Kind::PlainAdd, 2), add(Kind::PlainAdd, 3)}}},
 };
 // What was written before a flag is there for whoever has seen the flag.
 const std::vector<Litmus> publishTests = {
@@ -127,86 +133,89 @@ std::string name(Stages stages) {
   return stages == Stages::Compute ? "CS-CS" : stages == Stages::Fragment ? "FS-FS" : "VS-FS";
 }
 
-struct Variant {
-  Stages stages = Stages::Compute;
-  std::string qualifier = "coherent";
-  bool barrier = true;
+// What one test came to with a barrier between its operations, and without.
+struct WithAndWithout {
+  Counts with;
+  Counts without;
 };
 
-constexpr size_t instances = 32768;
-
-gl::ShaderDefines defines(const Variant& variant, size_t lanes, const Patches& patches) {
-  gl::ShaderDefines all = patches.defines();
-  all.insert(all.end(), {{"QUALIFIER", variant.qualifier},
-                         {"INSTANCES", std::to_string(instances) + "u"},
-                         {"LANES", std::to_string(lanes) + "u"},
-                         {"ROUNDS", std::to_string(instances / lanes) + "u"}});
-  if (variant.barrier) all.emplace_back("WITH_BARRIER", "1");
-  return all;
+constexpr uint32_t placeX(uint32_t instance, uint32_t seed, uint32_t instances) {
+  return (instance * 40503u + seed) % instances;
+}
+constexpr uint32_t placeY(uint32_t instance, uint32_t seed, uint32_t instances) {
+  return instances + (instance * 27191u + seed * 3u) % instances;
 }
 
-// Runs the test once in all instances. `seed` varies places, delays and stress.
-Counts run(const Context& context, const Litmus& test, const Variant& variant, uint32_t seed) {
-  constexpr size_t lanes = 512;
-  const size_t perInstance = test.threads.size() / 2;
-  const gl::Buffer memory = zeroWords(context.device, instances * 2 + 4096);
-  const gl::Buffer results = zeroWords(context.device, instances * 4);
-  const gl::Buffer meeting = zeroWords(context.device, 4 + lanes);
-  std::array<uint32_t, 11> parameters{};
-  for (size_t t = 0; t < test.threads.size(); ++t)
-    for (size_t i = 0; i < 2; ++i) parameters[t * 2 + i] = test.threads[t][i].packed();
-  parameters[8] = seed;
-  parameters[9] = seed & 1u;
-  parameters[10] = static_cast<uint32_t>(test.threads.size());
+// Runs all tests, each in many instances, and adds to `counts`. `seed` varies places, delays and stress.
+void run(const Context& context, const std::vector<Litmus>& tests, Stages stages, const char* qualifier,
+         uint32_t seed, std::vector<WithAndWithout>& counts) {
+  const Patches patches{.grid = stages == Stages::VertexFragment ? 1u : 2u, .patch = 16};
+  const auto lanes = static_cast<uint32_t>(stages == Stages::VertexFragment ? patches.pixels() : 512);
+  const auto instances = static_cast<uint32_t>(sized(context, 32768, 65536));
+  const gl::Buffer memory = zeroWords(context.device, size_t{instances} * 2 + 4096);
+  const gl::Buffer results = zeroWords(context.device, size_t{instances} * 4);
+  const gl::Buffer meeting = zeroWords(context.device, 5 + lanes);
+  std::vector<uint32_t> parameters = {seed, seed & 1u, static_cast<uint32_t>(tests.size())};
+  for (const Litmus& test : tests) {
+    for (size_t t = 0; t < 4; ++t)
+      for (size_t i = 0; i < 2; ++i)
+        parameters.push_back(t < test.threads.size() ? test.threads[t][i].packed() : 0);
+    parameters.push_back(static_cast<uint32_t>(test.threads.size()));
+  }
   const gl::Buffer described(context.device, "validation", std::span<const uint32_t>(parameters));
   memory.bindStorage(0);
   results.bindStorage(1);
   meeting.bindStorage(2);
   described.bindStorage(3);
-  switch (variant.stages) {
-    case Stages::Compute: {
-      const gl::Program& program = probeProgram(context, {"litmus.comp"}, defines(variant, lanes, {}));
-      gl::dispatch(program, {2 * lanes / 64, 1, 1});
+  gl::ShaderDefines defines = patches.defines();
+  defines.insert(defines.end(), {{"QUALIFIER", qualifier},
+                                 {"LANES", std::to_string(lanes) + "u"},
+                                 {"ROUNDS", std::to_string(instances / lanes) + "u"}});
+  switch (stages) {
+    case Stages::Compute:
+      gl::dispatch(probeProgram(context, {"litmus.comp"}, defines), {2 * lanes / 64, 1, 1});
       break;
-    }
-    case Stages::Fragment: {
-      const Patches patches{.patch = 16};
-      const gl::Program& program =
-          probeProgram(context, {"layers.vert", "litmus.frag"}, defines(variant, lanes, patches));
-      drawPatches(context.device, program, patches);
+    case Stages::Fragment:
+      drawPatches(context.device, probeProgram(context, {"layers.vert", "litmus.frag"}, defines), patches);
       break;
-    }
     case Stages::VertexFragment: {
-      const Patches patches{.grid = 1, .patch = 16};
-      gl::ShaderDefines these = defines(variant, patches.pixels(), patches);
-      these.emplace_back("VERTICES", "1");
-      const gl::Program& fragments = probeProgram(context, {"layers.vert", "litmus.frag"}, these);
-      const gl::Program& vertices = probeProgram(context, {"litmus.vert", "nothing.frag"}, these);
+      defines.emplace_back("VERTICES", "1");
+      const gl::Program& fragments = probeProgram(context, {"layers.vert", "litmus.frag"}, defines);
+      const gl::Program& vertices = probeProgram(context, {"litmus.vert", "nothing.frag"}, defines);
       drawPatches(context.device, fragments, patches);
       gl::flush();  // so that the fragments can be on their way while the vertices are
       const gl::Framebuffer nothing(glm::ivec2(64));
       gl::setDrawState({.program = &vertices, .target = &nothing, .viewport = {0, 0, 64, 64}});
-      gl::drawGenerated(context.device, patches.pixels(), 1, gl::Primitive::Points);
+      gl::drawGenerated(context.device, lanes, 1, gl::Primitive::Points);
       break;
     }
   }
   gl::storageBarrier();
 
-  std::set<Ending> possible;
-  interleave(test, {}, {}, possible);
-  const std::set<Ending> sequential = oneByOne(test);
-  const auto words = memory.readValues<uint32_t>(instances * 2);
-  const auto told = results.readValues<uint32_t>(instances * 4);
-  std::map<Ending, int64_t> seen;
-  for (uint32_t i = 0; i < instances / perInstance; ++i)
-    ++seen[{told[i * 4], told[i * 4 + 1], told[i * 4 + 2], told[i * 4 + 3],
-            words[(i * 40503u + seed) % instances], words[instances + (i * 27191u + seed * 3u) % instances]}];
-  Counts counts;
-  for (const auto& [ending, times] : seen)
-    (sequential.count(ending) != 0 ? counts.sequential
-     : possible.count(ending) != 0 ? counts.interleaved
-                                   : counts.forbidden) += times;
-  return counts;
+  const auto words = memory.readValues<uint32_t>(size_t{instances} * 2);
+  const auto told = results.readValues<uint32_t>(size_t{instances} * 4);
+  for (uint32_t t = 0; t < tests.size(); ++t) {
+    const Litmus& test = tests[t];
+    std::set<Ending> possible;
+    interleave(test, {}, {}, possible);
+    const std::set<Ending> sequential = oneByOne(test);
+    const auto own = static_cast<uint32_t>(lanes * 2 / test.threads.size());
+    for (uint32_t round = t; round < instances / lanes; round += static_cast<uint32_t>(tests.size())) {
+      const bool barrier = round / tests.size() % 2 == 0;
+      Counts& these = barrier ? counts[t].with : counts[t].without;
+      for (uint32_t i = round * lanes; i < round * lanes + own; ++i) {
+        const Ending ending = {told[i * 4],
+                               told[i * 4 + 1],
+                               told[i * 4 + 2],
+                               told[i * 4 + 3],
+                               words[placeX(i, seed, instances)],
+                               words[placeY(i, seed, instances)]};
+        ++(sequential.count(ending) != 0 ? these.sequential
+           : possible.count(ending) != 0 ? these.interleaved
+                                         : these.forbidden);
+      }
+    }
+  }
 }
 
 std::string told(const Counts& counts) {
@@ -214,107 +223,276 @@ std::string told(const Counts& counts) {
                      counts.forbidden);
 }
 
-// Runs all the tests in all stages, with barriers and (for the figures) without, until each was seen
-// interleaved. `always`: what no order explains is forbidden without barriers as well.
-Result litmus(const Context& context, const std::vector<Litmus>& tests, bool always,
+// How a test is judged. What no order of operations explains is forbidden with a barrier between them; in
+// coherence tests without one as well; in a control it shows that it could have been seen.
+enum class Judged { WithBarrier, Always, Control };
+
+// Runs all tests in all stages until each has been seen to interleave, or each control to fail.
+Result litmus(const Context& context, const std::vector<Litmus>& tests, const std::vector<Judged>& judged,
               const std::string& meaning) {
   Result result;
   std::string unseen;
   auto seed = static_cast<uint32_t>(context.seed);
+  const bool controlled = std::count(judged.begin(), judged.end(), Judged::Control) != 0;
   for (const Stages stages : allStages) {
-    std::map<std::string, Counts> with;
-    std::map<std::string, Counts> without;
+    std::vector<WithAndWithout> counts(tests.size());
     std::string missing;
-    untilSeen(context, [&] {
+    untilSeen(context, 0.6, [&] {
+      for (const char* qualifier : {"coherent", "volatile"})
+        run(context, tests, stages, qualifier, ++seed, counts);
       missing.clear();
-      for (const Litmus& test : tests) {
-        Counts& counts = with[test.name];
-        if (counts.forbidden != 0) continue;
-        if (counts.interleaved != 0 && context.scale == Scale::Small) continue;
-        for (const char* qualifier : {"coherent", "volatile"}) {
-          counts += run(context, test, {stages, qualifier, true}, ++seed);
-          without[test.name] += run(context, test, {stages, qualifier, false}, ++seed);
-        }
-        if (counts.interleaved == 0 && counts.forbidden == 0)
-          missing += (missing.empty() ? "" : ", ") + test.name;
+      for (size_t t = 0; t < tests.size(); ++t) {
+        // Atomic operations of one word do not interleave: their control speaks for them.
+        const Counts& told = counts[t].with;
+        const bool seen = judged[t] == Judged::Control ? told.forbidden != 0
+                          : tests[t].atomic            ? controlled
+                                                       : told.interleaved + told.forbidden != 0;
+        if (!seen) missing += (missing.empty() ? "" : ", ") + tests[t].name;
       }
-      return missing.empty() && context.scale == Scale::Small;
+      return missing.empty();
     });
-    if (!missing.empty()) unseen += (unseen.empty() ? "" : "; ") + name(stages) + ": " + missing;
-    for (const Litmus& test : tests) {
-      const std::string label = name(stages) + " " + test.name;
-      const Counts& counts = with[test.name];
-      const Counts& loose = without[test.name];
-      result.figures.emplace_back(label, told(counts));
-      result.figures.emplace_back(label + ", no barrier", told(loose));
-      const bool looseFails = always && loose.forbidden != 0;
-      if (result.verdict != Verdict::Pass || (counts.forbidden == 0 && !looseFails)) continue;
-      const Counts& worse = counts.forbidden != 0 ? counts : loose;
+    // The engine builds lists in compute and in fragment shaders.
+    if (!missing.empty() && stages == Stages::VertexFragment)
+      result.finding = "not shown where vertices meet fragments: " + missing;
+    else if (!missing.empty())
+      unseen += (unseen.empty() ? "" : "; ") + name(stages) + ": " + missing;
+    for (size_t t = 0; t < tests.size(); ++t) {
+      const std::string label = name(stages) + " " + tests[t].name;
+      result.figures.emplace_back(label, told(counts[t].with));
+      result.figures.emplace_back(label + ", no barrier", told(counts[t].without));
+      if (judged[t] == Judged::Control || result.verdict == Verdict::Fail) continue;
+      Counts bad = counts[t].with;
+      if (judged[t] == Judged::Always) bad += counts[t].without;
+      if (bad.forbidden == 0) continue;
       result.verdict = Verdict::Fail;
-      result.finding =
-          fmt::format("{}: {} of {} instances ended as no order of their operations explains{}", label,
-                      worse.forbidden, worse.all(), counts.forbidden != 0 ? "" : " (no barrier)");
+      result.finding = fmt::format("{}: {} of {} instances ended as no order of their operations explains",
+                                   label, bad.forbidden, bad.all());
       result.meaning = meaning;
     }
   }
   if (result.verdict == Verdict::Pass && !unseen.empty()) {
     result.verdict = Verdict::NoPower;
-    result.finding = fmt::format("nothing forbidden was seen, but nothing interleaved either in {}", unseen);
+    result.finding = "nothing forbidden was seen, but no operations in between either: " + unseen;
     result.meaning = "nothing, good or bad: these never ran closely enough side by side here";
   }
   return result;
 }
 
 Result litmusCoherence(const Context& context) {
-  Result result =
-      litmus(context, coherenceTests, true, "reads of one word go backwards: no list can be trusted here");
-  // Additions of both threads to one word: none is lost. Where plain ones are lost, that could have been
-  // seen.
-  const Litmus atomic{"RMW",
-                      {{add(Kind::Add, 0), add(Kind::Add, 1)}, {add(Kind::Add, 2), add(Kind::Add, 3)}}};
-  Litmus plain = atomic;
-  for (Thread& thread : plain.threads)
-    for (Operation& operation : thread) operation.kind = Kind::PlainAdd;
-  auto seed = static_cast<uint32_t>(context.seed);
-  std::string powerless;
-  for (const Stages stages : allStages) {
-    Counts counts;
-    Counts control;
-    const bool seen = untilSeen(context, [&] {
-      counts += run(context, atomic, {stages, "coherent", false}, ++seed);
-      control += run(context, plain, {stages, "coherent", false}, ++seed);
-      return control.forbidden != 0 || counts.forbidden != 0;
-    });
-    if (!seen) powerless += (powerless.empty() ? "" : ", ") + name(stages);
-    result.figures.emplace_back(name(stages) + " RMW", told(counts));
-    result.figures.emplace_back(name(stages) + " RMW, plain", told(control));
-    if (result.verdict != Verdict::Fail && counts.forbidden != 0) {
-      result.verdict = Verdict::Fail;
-      result.finding = fmt::format("{} RMW: additions were lost in {} of {} instances", name(stages),
-                                   counts.forbidden, counts.all());
-      result.meaning = "atomic operations are not atomic: no list can be trusted here";
-    }
-  }
-  if (result.verdict == Verdict::Pass && !powerless.empty()) {
-    result.verdict = Verdict::NoPower;
-    result.finding = "plain additions were not lost either in " + powerless;
-    result.meaning = "nothing, good or bad: these never ran closely enough side by side here";
-  }
-  return result;
+  return litmus(
+      context, coherenceTests,
+      {Judged::Always, Judged::Always, Judged::Always, Judged::Always, Judged::Always, Judged::Control},
+      "operations of one word have no order, or lose each other: no list can be trusted here");
 }
 
 Result litmusPublish(const Context& context) {
   return litmus(
-      context, publishTests, false,
+      context, publishTests, std::vector(publishTests.size(), Judged::WithBarrier),
       "what was written before a flag, a barrier between, is not there for who has seen the flag: no list "
       "can be built and read in one pass");
 }
 
 Result litmusOrder(const Context& context) {
   return litmus(
-      context, orderTests, false,
+      context, orderTests, std::vector(orderTests.size(), Judged::WithBarrier),
       "a barrier does not hold a thread until its writes are seen: who needs that (Dekker's lock, say) "
       "uses atomics; the engine does");
+}
+
+constexpr size_t apiWords = 64;  // a round: the alignment that every driver allows in bytes, as words
+constexpr size_t apiRounds = 16;
+
+using Words = std::vector<uint32_t>;
+
+// One way in which the API reads what a shader wrote.
+struct Use {
+  std::string name;
+  gl::Reader reader;
+  std::function<Words(uint32_t round)> wanted;          // what the shader writes
+  std::function<Words(const Words& wanted)> found;      // what is then found
+  std::function<void(const gl::Buffer& written)> read;  // binding 2 is the place for what is found
+};
+
+Words padded(Words words) {
+  words.resize(apiWords, 0);
+  return words;
+}
+
+// Rounds in which something else was found than what had been written just before.
+int64_t stale(const Context& context, const Use& use, bool barrier) {
+  Words wanted;
+  Words expected;
+  for (uint32_t round = 0; round < apiRounds; ++round) {
+    const Words words = padded(use.wanted(round));
+    const Words found = padded(use.found(words));
+    wanted.insert(wanted.end(), words.begin(), words.end());
+    expected.insert(expected.end(), found.begin(), found.end());
+  }
+  const gl::Buffer source(context.device, "validation", std::span<const uint32_t>(wanted));
+  const gl::Buffer written = zeroWords(context.device, apiWords);
+  const gl::Buffer found = zeroWords(context.device, expected.size());
+  const gl::Program& writer = probeProgram(context, {"api_write.comp"});
+  for (size_t round = 0; round < apiRounds; ++round) {
+    const size_t offset = round * apiWords * sizeof(uint32_t);
+    source.bindStorageRange(0, offset, apiWords * sizeof(uint32_t));
+    found.bindStorageRange(2, offset, apiWords * sizeof(uint32_t));
+    written.bindStorage(1);
+    gl::dispatch(writer, {1, 1, 1});
+    if (barrier) gl::barrierBefore(use.reader);
+    use.read(written);
+    gl::storageBarrier();
+  }
+  const auto told = found.readValues<uint32_t>(expected.size());
+  int64_t wrong = 0;
+  for (size_t round = 0; round < apiRounds; ++round)
+    wrong += !std::equal(told.begin() + static_cast<long>(round * apiWords),
+                         told.begin() + static_cast<long>((round + 1) * apiWords),
+                         expected.begin() + static_cast<long>(round * apiWords));
+  return wrong;
+}
+
+Result apiBarrier(const Context& context) {
+  gl::Device& device = context.device;
+  const gl::Framebuffer nothing(glm::ivec2(64));
+  const auto prepareDraw = [&](const char* what) {
+    gl::setDrawState({.program = &probeProgram(context, {"api_read.vert", "nothing.frag"}, {{what, "1"}}),
+                      .target = &nothing,
+                      .viewport = {0, 0, 64, 64}});
+  };
+  const auto compute = [&](const char* what) {
+    gl::dispatch(probeProgram(context, {"api_read.comp"}, {{what, "1"}}), {1, 1, 1});
+  };
+  const auto counting = [](uint32_t round) {
+    Words words(apiWords);
+    for (uint32_t i = 0; i < apiWords; ++i) words[i] = round * 1000 + i + 1;
+    return words;
+  };
+  const auto asTheyAre = [](const Words& words) { return words; };
+  const gl::VertexAttribute value{.location = 0, .floats = 1, .offset = 0};
+  Words inOrder(63);
+  for (uint32_t i = 0; i < inOrder.size(); ++i) inOrder[i] = i;
+  const gl::Buffer indices(device, "validation", std::span<const uint32_t>(inOrder));
+  const gl::Buffer vertices = zeroWords(device, apiWords);
+  gl::Texture texture(device, "validation", {.format = gl::Format::R32UI, .size = {apiWords, 1, 1}});
+  gl::Buffer found = zeroWords(device, apiWords);
+
+  std::vector<Use> uses = {
+      {"storage block", gl::Reader::Storage, counting, asTheyAre,
+       [&](const gl::Buffer&) { compute("READ_STORAGE"); }},
+      {"uniform block", gl::Reader::Uniform, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         written.bindUniform(0);
+         compute("READ_UNIFORM");
+       }},
+      {"buffer texture", gl::Reader::TextureFetch, counting,
+       [](Words words) {
+         words.back() = 0;  // 21 texels of three
+         return words;
+       },
+       [&](const gl::Buffer& written) {
+         const gl::BufferTexture view(device, written, gl::BufferFormat::RGB32UI);
+         view.bind(0);
+         compute("READ_BUFFER_TEXTURE");
+       }},
+      {"pixel transfer", gl::Reader::PixelUnpack, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         texture.copyFrom(written);
+         texture.bind(0);
+         compute("READ_TEXTURE");
+       }},
+      {"copy", gl::Reader::Update, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         found.copyFrom(written, apiWords * sizeof(uint32_t));
+         found.bindStorage(1);
+         compute("READ_STORAGE");
+       }},
+      {"mapping", gl::Reader::Update, counting, asTheyAre,
+       [&](const gl::Buffer& written) {
+         Words words(apiWords);
+         written.readMapped(std::as_writable_bytes(std::span(words)));
+         found.write(std::as_bytes(std::span(words)));
+         found.bindStorage(1);
+         compute("READ_STORAGE");
+       }},
+      {"dispatch command", gl::Reader::IndirectCommand,
+       [](uint32_t round) {
+         return Words{round % 7 + 1, 1, 1};
+       },
+       [](const Words& words) { return Words{words[0]}; },
+       [&](const gl::Buffer& written) {
+         gl::dispatchIndirect(probeProgram(context, {"api_read.comp"}), written);
+       }},
+  };
+  if (device.limits().vertexStorageBlocks > 0) {
+    uses.push_back({"vertices", gl::Reader::VertexFetch,
+                    [](uint32_t round) {
+                      Words words(apiWords);
+                      for (uint32_t i = 0; i < 63; ++i) {
+                        const auto number = static_cast<float>(round * 1000 + i + 1);
+                        std::memcpy(&words[i], &number, sizeof number);
+                      }
+                      return words;
+                    },
+                    [](const Words& words) {
+                      Words numbers(63);
+                      for (size_t i = 0; i < numbers.size(); ++i) {
+                        float number = 0;
+                        std::memcpy(&number, &words[i], sizeof number);
+                        numbers[i] = static_cast<uint32_t>(number);
+                      }
+                      return numbers;
+                    },
+                    [&](const gl::Buffer& written) {
+                      const gl::VertexArray array(device, written, 4, std::span(&value, 1), indices, 1, 1);
+                      prepareDraw("READ_VERTICES");
+                      gl::drawIndexed(array, {.indices = 63});
+                    }});
+    uses.push_back({"indices", gl::Reader::IndexFetch,
+                    [](uint32_t round) {
+                      return Words{round % 60, round % 60 + 1, round % 60 + 2};
+                    },
+                    [](const Words& words) {
+                      Words met(apiWords, 0);
+                      for (size_t i = 0; i < 3; ++i) met[words[i]] = 1;
+                      return met;
+                    },
+                    [&](const gl::Buffer& written) {
+                      const gl::VertexArray array(device, vertices, 4, std::span(&value, 1), written, 1, 1);
+                      prepareDraw("READ_INDICES");
+                      gl::drawIndexed(array, {.indices = 3});
+                    }});
+    uses.push_back({"draw command", gl::Reader::IndirectCommand,
+                    [](uint32_t round) {
+                      return Words{3, round % 7 + 1, 0, 0};
+                    },
+                    [](const Words& words) { return Words{words[1]}; },
+                    [&](const gl::Buffer& written) {
+                      prepareDraw("READ_INSTANCES");
+                      gl::drawIndirect(device, written);
+                    }});
+  }
+
+  Result result;
+  std::string bad;
+  int64_t without = 0;
+  for (const Use& use : uses) {
+    const int64_t wrong = stale(context, use, true);
+    const int64_t loose = stale(context, use, false);
+    without += loose;
+    if (wrong != 0) bad += (bad.empty() ? "" : ", ") + use.name;
+    result.figures.emplace_back(use.name + ": stale", wrong);
+    result.figures.emplace_back(use.name + ": stale without barrier", loose);
+  }
+  if (!bad.empty())
+    return {Verdict::Fail, "old data after the barrier as: " + bad,
+            "what a shader wrote cannot be used so without waiting for it to end (glFinish)",
+            std::move(result.figures)};
+  if (without == 0)
+    return {Verdict::NoPower,
+            fmt::format("new data was read in all {} ways, with the barriers and without", uses.size()),
+            "barriers are not needed here, so that it cannot be shown that they work: keep them",
+            std::move(result.figures)};
+  return result;
 }
 
 }  // namespace
@@ -340,6 +518,12 @@ std::vector<Check> memoryModelChecks() {
        {},
        {"SWAPPED"},
        litmusOrder},
+      {"api-barrier",
+       "memory-model",
+       "what a shader wrote to a buffer is there for ten other ways of reading it after their barrier",
+       all,
+       {"NO_WRITE"},
+       apiBarrier},
   };
 }
 

@@ -32,16 +32,7 @@ gl::ShaderDefines Patches::defines() const {
 }
 
 void drawPatches(gl::Device& device, const gl::Program& program, const Patches& patches) {
-  const int grid = static_cast<int>(patches.grid);
-  const int patch = static_cast<int>(patches.patch);
-  const gl::Framebuffer nothing(glm::ivec2(grid * 64));
-  gl::DrawState state{.program = &program, .target = &nothing, .viewport = {0, 0, grid * 64, grid * 64}};
-  for (int y = 0; y < grid; ++y)
-    for (int x = 0; x < grid; ++x) {
-      state.scissor = {x * 64, y * 64, patch, patch};
-      gl::setDrawState(state);
-      gl::drawGenerated(device, 3, patches.layers);
-    }
+  drawLayers(device, program, static_cast<int>(patches.grid) * 64, patches.layers);
 }
 
 size_t sized(const Context& context, size_t small, size_t full) {
@@ -53,12 +44,12 @@ bool interpreted(const gl::Device& device) {
   return device.names().renderer.find("softpipe") != std::string::npos;
 }
 
-bool untilSeen(const Context& context, const std::function<bool()>& round) {
-  const auto end =
-      std::chrono::steady_clock::now() + std::chrono::milliseconds(context.scale == Scale::Full ? 5000 : 800);
+bool untilSeen(const Context& context, double seconds, const std::function<bool()>& round) {
+  const std::chrono::duration<double> time(context.scale == Scale::Full ? 5 * seconds : seconds);
+  const auto start = std::chrono::steady_clock::now();
   do {
     if (round()) return true;
-  } while (std::chrono::steady_clock::now() < end);
+  } while (std::chrono::steady_clock::now() - start < time);
   return false;
 }
 

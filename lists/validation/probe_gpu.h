@@ -23,7 +23,7 @@ gl::Buffer zeroWords(gl::Device& device, size_t count);
 // effects of its fragments stay.
 void drawLayers(gl::Device& device, const gl::Program& program, int side, size_t layers);
 
-// Squares of pixels that fragments are made for, 64 pixels apart, so that each stands in another tile of a
+// Squares of pixels that fragments do something in, 64 pixels apart, so that each stands in another tile of a
 // driver that gives tiles to threads. No triangle ends inside one: all lanes are live
 // (shaders/lists/validation/patches.glsl).
 struct Patches {
@@ -44,8 +44,9 @@ size_t sized(const Context& context, size_t small, size_t full);
 // Whether the driver interprets shaders (softpipe).
 bool interpreted(const gl::Device& device);
 
-// Calls `round` until it is true or the time for one check's control is over; whether it was. What runs at
-// the same time depends on the operating system too, so that a control may need many rounds until it fails.
-bool untilSeen(const Context& context, const std::function<bool()>& round);
+// Calls `round` until it is true or so many seconds are over (five times as many at full scale); whether it
+// was. What runs at the same time depends on the operating system too: a control may need many rounds until
+// it fails.
+bool untilSeen(const Context& context, double seconds, const std::function<bool()>& round);
 
 }  // namespace sfumato::lists::validation

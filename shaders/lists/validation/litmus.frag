@@ -3,6 +3,7 @@
 #include "shaders/lists/validation/patches.glsl"
 
 void main() {
+  if (!inPatch()) return;
 #ifdef VERTICES
   litmus(1u, patchId());
 #else

@@ -1,9 +1,9 @@
-// One thread of a litmus test: two operations on the words x and y of each of ROUNDS instances, a memory barrier between
-// them (or none). What the operations are is data, so that one shader runs every test and no compiler sees through it.
-// Thread and partner (the same lane elsewhere) meet before each instance, within bounds, and start a little apart.
+// One thread of litmus tests: two operations on the words x and y of an instance, a memory barrier between them (or none),
+// in one instance after the other. What the operations are is data, so that one shader runs all tests and no compiler sees
+// through them. A thread and its partner (the same lane elsewhere) meet before each instance, within bounds, and start a
+// little apart.
 //
-// QUALIFIER: of the memory. INSTANCES: a power of two. ROUNDS, LANES (of all partners): INSTANCES is their product over
-// LANES_AN_INSTANCE. WITH_BARRIER.
+// QUALIFIER: of the memory. LANES: partners. ROUNDS: instances that each of them runs; LANES * ROUNDS is a power of two.
 #include "shaders/lists/validation/random.glsl"
 
 layout(std430, binding = 0) QUALIFIER buffer Memory {
@@ -17,16 +17,18 @@ layout(std430, binding = 2) coherent buffer Meeting {
   uint gateMet;
   uint gateTries;
   uint ticket;
+  uint firstMeetings;
   uint meetings[];  // of each lane and its partner
 };
-layout(std430, binding = 3) readonly buffer Test {
-  uint operations[8];  // two of each of four threads: see litmus_gpu.cpp
+layout(std430, binding = 3) readonly buffer Tests {
   uint seed;
   uint stress;
-  uint threads;  // 2 or 4
+  uint tests;
+  uint operations[];  // of each test: two of each of four threads (memory_model_gpu.cpp packs them), then how many threads
 };
 #include "shaders/lists/validation/gate.glsl"
 
+const uint INSTANCES = LANES * ROUNDS;
 const uint LOAD = 1u;
 const uint STORE = 2u;
 const uint ADD = 3u;
@@ -58,40 +60,38 @@ void operate(uint operation, uint instance) {
 
 // `side`: 0 or 1, the two partners; `lane`: the same number for both, below LANES.
 void litmus(uint side, uint lane) {
-  uint thread = threads == 2u ? side : side * 2u + (lane & 1u);
-  uint own = threads == 2u ? lane : lane >> 1;
-  uint step = threads == 2u ? LANES : LANES / 2u;
-  uint first = operations[thread * 2u];
-  uint second = operations[thread * 2u + 1u];
-#ifdef MUTANT_SWAPPED
-  uint swap = first;
-  first = second;
-  second = swap;
-#endif
-  uint patience = 24000u;  // looks for the partner, over all rounds
+  // Looks for the partner: many in the first round, but only for a few lanes, in case there is none.
+  uint looks = atomicAdd(firstMeetings, 1u) < 64u ? 12000u : 500u;
   for (uint round = 0u; round < ROUNDS; ++round) {
-    uint instance = round * step + own;
+    uint test = round % tests * 9u;
+    bool two = operations[test + 8u] == 2u;
+    uint thread = two ? side : side * 2u + (lane & 1u);
+    uint instance = round * LANES + (two ? lane : lane >> 1);
+    uint first = operations[test + thread * 2u];
+    uint second = operations[test + thread * 2u + 1u];
+#ifdef MUTANT_SWAPPED
+    uint swap = first;
+    first = second;
+    second = swap;
+#endif
     uint chance = hash(instance * 4u + thread + seed);
     if (stress != 0u) {
       memory[2u * INSTANCES + chance % STRESS_WORDS] = chance;
       memory[2u * INSTANCES + (chance >> 12) % STRESS_WORDS] = chance;
     }
     uint met = atomicAdd(meetings[lane], 1u) + 1u;
-    uint looks = round == 0u ? 12000u : 48u;
-    while (met < 2u * (round + 1u) && looks != 0u && patience != 0u) {
+    while (met < 2u * (round + 1u) && looks != 0u) {
       met = atomicAdd(meetings[lane], 0u);
       --looks;
-      --patience;
     }
+    looks = 48u;
     uint delay = chance >> 24 & 3u;
     while (delay != 0u) {
       atomicAdd(ticket, 0u);
       --delay;
     }
     operate(first, instance);
-#ifdef WITH_BARRIER
-    memoryBarrier();
-#endif
+    if ((round / tests & 1u) == 0u) memoryBarrier();
     operate(second, instance);
   }
 }

@@ -4,6 +4,7 @@
 #include "shaders/lists/validation/patches.glsl"
 
 void main() {
+  if (!inPatch()) return;
   uint id = patchId();
   uvec2 pixel = patchPixel();
   if (layer == 0u && pixel % 8u == uvec2(0u)) gate();
