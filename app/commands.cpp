@@ -1,5 +1,6 @@
 #include "app/commands.h"
 
+#include <limits>
 #include <memory>
 
 #include "app/validators.h"
@@ -192,8 +193,10 @@ void addChecks(CLI::App& command, ValidateOptions& options) {
   add("--scale", options.scale, "small or full, else small: seconds or minutes on software GL")
       ->type_name("NAME")
       ->check(oneOf({"small", "full"}));
-  add("--seed", options.seed, "Of all that is random: a whole number, else 1")->type_name("N");
-  add("--timeout", options.timeoutSeconds, "Then a check hangs: 0.1 to 86400, else 20, or 60 at full scale")
+  add("--seed", options.seed, "Of all that is random: 0 to 2147483647, else 1")
+      ->type_name("N")
+      ->check(wholeBetween(0, std::numeric_limits<int>::max()));
+  add("--timeout", options.timeoutSeconds, "Then a check hangs: 0.1 to 86400, else 60, or 180 at full scale")
       ->type_name("SECONDS")
       ->check(between(0.1, 86400.0));
   add("--jobs", options.jobs, "Checks at a time: 1 to 64, else 1")

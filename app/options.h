@@ -73,7 +73,7 @@ struct ValidateOptions {
   std::vector<std::string> skip;
   uint64_t seed = 1;
   std::string scale = "small";
-  std::optional<double> timeoutSeconds;  // of one check; none: 20, or 60 at full scale
+  std::optional<double> timeoutSeconds;  // of one check; none: 60, or 180 at full scale
   int jobs = 1;
   bool list = false;
   bool selfTest = false;

@@ -34,7 +34,7 @@ RunOptions runOptions(const ValidateOptions& options) {
     run.deviceArguments.insert(run.deviceArguments.end(), {"--shader-dir", options.device.shaderDir});
   run.seed = options.seed;
   run.scale = scaleOf(options);
-  run.timeoutSeconds = options.timeoutSeconds.value_or(run.scale == Scale::Full ? 60 : 20);
+  run.timeoutSeconds = options.timeoutSeconds.value_or(run.scale == Scale::Full ? 180 : 60);
   run.jobs = options.jobs;
   return run;
 }

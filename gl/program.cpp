@@ -78,6 +78,15 @@ Program::Program(const Device& device, const std::vector<std::string>& names, co
   fail(ExitCode::Bug, "shader {}: does not link: {}", names.back(), log);
 }
 
+std::string compileProblem(const Device& device, const std::string& name, const ShaderDefines& defines) {
+  try {
+    compile(device, name, defines);
+    return {};
+  } catch (const base::Error& error) {
+    return error.what();
+  }
+}
+
 std::vector<BlockMember> Program::storageMembers() const {
   return members(name(), GL_BUFFER_VARIABLE);
 }

@@ -37,4 +37,7 @@ class Program {
   Object<deleteProgram> object_;
 };
 
+// What the compiler has against this shader by itself; empty when it takes it.
+std::string compileProblem(const Device& device, const std::string& name, const ShaderDefines& defines = {});
+
 }  // namespace sfumato::gl

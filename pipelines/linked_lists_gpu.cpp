@@ -58,7 +58,7 @@ struct Split {
 
 void bindRayInputs(const ResolveInputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
-  inputs.surfaces.bind(STORAGE_LIST_HEADS, STORAGE_LIST_LINKS, STORAGE_LIST_PAYLOADS);
+  inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   inputs.gbuffer.surface0.bind(TEXTURE_SURFACE_0);
   inputs.gbuffer.surface1.bind(TEXTURE_SURFACE_1);
@@ -296,7 +296,8 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
   const auto receivers = scene::visiblePoints(scene_, mediaBoxes_, camera, aspect);
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
-                              .once = geometry_.hasShadowOnce()};
+                              .once = geometry_.hasShadowOnce(),
+                              .notSelf = geometry_.hasNotSelf()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
   return deepshadow::Maps(device_, {.lights = scene_.lights,
                                     .casters = casters,

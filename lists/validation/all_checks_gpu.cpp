@@ -35,6 +35,7 @@ std::vector<Check> allChecks() {
   add(atomicsChecks());
   add(listsChecks());
   add(loopsChecks());
+  add(engineChecks());
   add(locksChecks());
   add(progressChecks());
   add(memoryModelChecks());

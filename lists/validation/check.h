@@ -65,6 +65,7 @@ std::vector<Check> contextChecks();
 std::vector<Check> atomicsChecks();
 std::vector<Check> listsChecks();
 std::vector<Check> loopsChecks();
+std::vector<Check> engineChecks();
 std::vector<Check> locksChecks();
 std::vector<Check> progressChecks();
 std::vector<Check> memoryModelChecks();

@@ -50,6 +50,34 @@ Result context(const Context& context) {
   return result;
 }
 
+bool isStage(const std::string& name) {
+  return name.ends_with(".vert") || name.ends_with(".frag") || name.ends_with(".comp");
+}
+
+// The shaders of lists are left to the checks of the group `engine`, which run them.
+Result shaders(const Context& context) {
+  // What the engine defines when it compiles them: all ways to store a node, and small numbers.
+  std::vector<gl::ShaderDefines> variants;
+  for (const char* pass : {"0", "1", "2", "3", "4"})
+    variants.push_back({{"SAMPLES", "4"}, {"LIST_PASS", pass}});
+  int64_t compiled = 0;
+  Result result;
+  for (const gl::EmbeddedShader& shader : gl::embeddedShaders()) {
+    const std::string name(shader.name);
+    if (!isStage(name) || name.starts_with("lists/")) continue;
+    for (const gl::ShaderDefines& defines : variants) {
+      ++compiled;
+      const std::string problem = gl::compileProblem(context.device, name, defines);
+      if (problem.empty()) continue;
+      result.verdict = Verdict::Fail;
+      if (result.finding.empty()) result.finding = problem.substr(0, problem.find('\n'));
+      result.meaning = "the engine does not run on this driver";
+    }
+  }
+  result.figures = {{"compiled", compiled}};
+  return result;
+}
+
 Result reset(const Context& context) {
   if (!context.device.tellsResets())
     return {Verdict::Skip,
@@ -68,6 +96,11 @@ std::vector<Check> contextChecks() {
        .does = "OpenGL 4.3 core without a window, with the limits that the engine needs",
        .strategies = everyStrategy,
        .run = context},
+      {.name = "shaders",
+       .group = "context",
+       .does = "the driver's compiler takes every shader of the engine",
+       .strategies = everyStrategy,
+       .run = shaders},
       {.name = "reset",
        .group = "context",
        .does = "the driver says when it has reset a context",

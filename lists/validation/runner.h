@@ -19,7 +19,7 @@ struct RunOptions {
   std::vector<std::string> deviceArguments;  // --device and --shader-dir, as they were given
   uint64_t seed = 1;
   Scale scale = Scale::Small;
-  double timeoutSeconds = 20;  // of one check
+  double timeoutSeconds = 60;  // of one check
   int jobs = 1;                // checks at a time
 };
 

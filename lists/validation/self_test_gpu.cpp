@@ -11,7 +11,26 @@ namespace sfumato::lists::validation {
 namespace fs = std::filesystem;
 
 std::vector<EngineMutant> engineMutants() {
-  return {};
+  const std::string insert = "lists/insert.glsl";
+  return {
+      {"engine-spinlock", "no-lock", insert, "uint head = atomicExchange(listHeads[cell], LIST_LOCKED);",
+       "uint head = listHeads[cell];"},
+      {"engine-lockfree", "no-atomic-head", insert, "atomicCompSwap(listHeads[cell], current, node)",
+       "(listHeads[cell] == current ? (listHeads[cell] = node, current) : ~current)"},
+      {"engine-lockfree", "no-atomic-next", "lists/links.glsl",
+       "found = atomicCompSwap(listLinks[bank].links[i].next, expected, next)",
+       "found = listLinks[bank].links[i].next; if (found == expected) listLinks[bank].links[i].next = next"},
+      {"engine-append", "no-atomic", insert, "setLinkNext(node, atomicExchange(listHeads[cell], node));",
+       "setLinkNext(node, listHeads[cell]); listHeads[cell] = node;"},
+      {"engine-append", "no-atomic-node", insert, "uint node = atomicAdd(listCounters.demand, 1u) + 1u;",
+       "uint node = ++listCounters.demand;"},
+      {"engine-count", "no-atomic", insert,
+       "uint node = atomicAdd(listRuns[cell - uint(listWindow.range.x)].first, 0xffffffffu) - 1u;",
+       "uint node = --listRuns[cell - uint(listWindow.range.x)].first;"},
+      {"engine-count", "no-atomic-count", insert,
+       "atomicAdd(listRuns[cell - uint(listWindow.range.x)].count, 1u)",
+       "++listRuns[cell - uint(listWindow.range.x)].count"},
+  };
 }
 
 std::string mutated(const EngineMutant& mutant) {

@@ -83,7 +83,7 @@ TEST(ValidationReport, TheTableExplainsEachFailureAndEndsWithTheStrategies) {
   const Report report = mixed();
   const std::string text = table(report, strategyTrusts(report, checks));
   for (const char* part :
-       {"Renderer <1>", "seed 1, scale small, 20 s a check", "FAIL     lock", "-> locks <leak>",
+       {"Renderer <1>", "seed 1, scale small, 60 s a check", "FAIL     lock", "-> locks <leak>",
         "HANG     swap", "(information) odd", "-> no matter", "NO POWER push"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   EXPECT_TRUE(
