@@ -111,4 +111,19 @@ void Buffer::bindAtomicCounter(unsigned binding) const {
   glBindBufferBase(GL_ATOMIC_COUNTER_BUFFER, binding, name());
 }
 
+MappedBuffer::MappedBuffer(const std::string& label, size_t bytes) : object_(createBuffer()) {
+  constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  const std::vector<std::byte> zeros(bytes);
+  const auto size = static_cast<GLsizeiptr>(bytes);
+  glBindBuffer(GL_COPY_READ_BUFFER, object_.name());
+  glBufferStorage(GL_COPY_READ_BUFFER, size, zeros.data(), access);
+  const void* mapped = glMapBufferRange(GL_COPY_READ_BUFFER, 0, size, access);
+  if (mapped == nullptr) fail(ExitCode::Memory, "{}: the driver cannot map it", label);
+  bytes_ = {static_cast<const std::byte*>(mapped), bytes};
+}
+
+void MappedBuffer::bindStorage(unsigned binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, object_.name());
+}
+
 }  // namespace sfumato::gl

@@ -71,4 +71,18 @@ class Buffer {
   size_t bytes_ = 0;
 };
 
+// A buffer that the CPU sees all the time: needs GL_ARB_buffer_storage. What shaders wrote is there after
+// barrierBefore(Reader::Mapped) and a fence.
+class MappedBuffer {
+ public:
+  // `bytes` of zeros. Throws Memory when the driver cannot map it.
+  MappedBuffer(const std::string& label, size_t bytes);
+  std::span<const std::byte> bytes() const { return bytes_; }
+  void bindStorage(unsigned binding) const;
+
+ private:
+  Object<deleteBuffer> object_;
+  std::span<const std::byte> bytes_;
+};
+
 }  // namespace sfumato::gl

@@ -121,7 +121,8 @@ void barrierBefore(Reader reader) {
                                  GL_TEXTURE_FETCH_BARRIER_BIT,
                                  GL_PIXEL_BUFFER_BARRIER_BIT,
                                  GL_BUFFER_UPDATE_BARRIER_BIT,
-                                 GL_SHADER_STORAGE_BARRIER_BIT};
+                                 GL_SHADER_STORAGE_BARRIER_BIT,
+                                 GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT};
   glMemoryBarrier(bits[static_cast<int>(reader)]);
 }
 
@@ -135,6 +136,24 @@ void dispatchIndirect(const Program& program, const Buffer& groups) {
   glUseProgram(program.name());
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.name());
   glDispatchComputeIndirect(0);
+}
+
+int64_t timestamp() {
+  GLint64 now = 0;
+  glGetInteger64v(GL_TIMESTAMP, &now);
+  return now;
+}
+
+Fence::Fence() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
+
+Fence::~Fence() {
+  glDeleteSync(static_cast<GLsync>(sync_));
+}
+
+bool Fence::wait(double seconds) const {
+  const GLenum state = glClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT,
+                                        static_cast<GLuint64>(seconds * 1e9));
+  return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
 }
 
 void flush() {

@@ -91,7 +91,8 @@ enum class Reader {
   TextureFetch,
   PixelUnpack,
   Update,
-  Storage
+  Storage,
+  Mapped
 };
 // What shaders wrote becomes visible to this kind of reader. Update: copies, reads, writes and mappings of
 // buffers.
@@ -101,6 +102,23 @@ void barrierBefore(Reader reader);
 void drawIndirect(const Device& device, const Buffer& commands);
 // Workgroups in x, y and z as the first three words of `groups` say.
 void dispatchIndirect(const Program& program, const Buffer& groups);
+
+// The GPU's clock, in nanoseconds.
+int64_t timestamp();
+
+// A point in the stream of commands, to be waited for.
+class Fence {
+ public:
+  Fence();
+  ~Fence();
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
+  // Whether all commands before it were done within so many seconds.
+  bool wait(double seconds) const;
+
+ private:
+  void* sync_ = nullptr;
+};
 
 // Starts what was asked for so far, without waiting for it.
 void flush();

@@ -39,6 +39,8 @@ std::vector<Check> allChecks() {
   add(locksChecks());
   add(progressChecks());
   add(memoryModelChecks());
+  add(rasterChecks());
+  add(memoryChecks());
   return all;
 }
 

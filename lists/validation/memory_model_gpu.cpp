@@ -319,7 +319,7 @@ Words padded(Words words) {
 }
 
 // Rounds in which something else was found than what had been written just before.
-int64_t stale(const Context& context, const Use& use, bool barrier) {
+int64_t wrongRounds(const Context& context, const Use& use, bool barrier) {
   Words wanted;
   Words expected;
   for (uint32_t round = 0; round < apiRounds; ++round) {
@@ -476,17 +476,16 @@ Result apiBarrier(const Context& context) {
   std::string bad;
   int64_t without = 0;
   for (const Use& use : uses) {
-    const int64_t wrong = stale(context, use, true);
-    const int64_t loose = stale(context, use, false);
+    const int64_t wrong = wrongRounds(context, use, true);
+    const int64_t loose = wrongRounds(context, use, false);
     without += loose;
     if (wrong != 0) bad += (bad.empty() ? "" : ", ") + use.name;
-    result.figures.emplace_back(use.name + ": stale", wrong);
-    result.figures.emplace_back(use.name + ": stale without barrier", loose);
+    result.figures.emplace_back(use.name + ": wrong rounds", wrong);
+    result.figures.emplace_back(use.name + ": wrong rounds without barrier", loose);
   }
   if (!bad.empty())
-    return {Verdict::Fail, "old data after the barrier as: " + bad,
-            "what a shader wrote cannot be used so without waiting for it to end (glFinish)",
-            std::move(result.figures)};
+    return {Verdict::Fail, "other words than were written, after the barrier, as: " + bad,
+            "what a shader wrote cannot be read in these ways on this driver", std::move(result.figures)};
   if (without == 0)
     return {Verdict::NoPower,
             fmt::format("new data was read in all {} ways, with the barriers and without", uses.size()),

@@ -25,7 +25,8 @@ void main() {
 #if defined(READ_UNIFORM)
   found[i] = words[i / 4u][i % 4u];
 #elif defined(READ_BUFFER_TEXTURE)
-  found[i] = i < 63u ? texelFetch(words, int(i / 3u))[i % 3u] : 0u;
+  uvec3 texel = texelFetch(words, int(i / 3u)).rgb;
+  found[i] = i == 63u ? 0u : i % 3u == 0u ? texel.r : i % 3u == 1u ? texel.g : texel.b;
 #elif defined(READ_TEXTURE)
   found[i] = texelFetch(words, ivec2(i, 0), 0).r;
 #elif defined(READ_STORAGE)
