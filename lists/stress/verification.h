@@ -1,0 +1,51 @@
+// Judges lists that were read back, node by node, against the load that they were built from.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lists/stress/load.h"
+
+namespace sfumato::lists::stress {
+
+// What a node sorts by.
+struct NodeKey {
+  float depth = 0;
+  uint32_t id = 0;
+};
+
+struct Findings {
+  size_t lost = 0;      // nodes of the load that are in no list
+  size_t twice = 0;     // nodes that stand in a list again
+  size_t foreign = 0;   // what is no node of the load, or not of that cell, or has another depth
+  size_t unsorted = 0;  // nodes that do not sort after the one before them
+  size_t torn = 0;      // nodes with another payload
+  std::string fault;    // of the first cell that has one, in words; or empty
+
+  bool good() const { return lost + twice + foreign + unsorted + torn == 0; }
+};
+
+class Verification {
+ public:
+  explicit Verification(const Load& load);
+  // The nodes of one cell, as read back, in order, and load.payloadWords words for each. May be called from
+  // any thread; every cell once.
+  void addCell(uint32_t cell, std::span<const NodeKey> nodes, std::span<const uint32_t> payloads);
+  // When all cells were added.
+  Findings findings() const;
+
+ private:
+  bool isFirst(uint32_t number);
+
+  const Load load_;
+  std::vector<std::atomic<uint64_t>> seen_;  // a bit for each node
+  mutable std::mutex mutex_;
+  Findings findings_;
+  uint32_t faultyCell_ = UINT32_MAX;  // of findings_.fault
+};
+
+}  // namespace sfumato::lists::stress
