@@ -66,9 +66,27 @@ struct InfoOptions {
   bool json = false;
 };
 
+struct StressOptions {
+  RenderOptions shot;  // device, command line, and, when it is a real scene that is stressed, what is seen
+  std::vector<glm::ivec2> cells = {{256, 256}};
+  std::vector<int> layers = {4, 16, 32};
+  std::vector<std::string> distributions = {"uniform", "hot-spot", "one-cell", "hair"};
+  std::vector<int> nodeBytes = {4};  // of payload, multiples of 4
+  int seed = 1;
+  std::vector<std::string> lists = {"spinlock", "lockfree", "append", "count"};
+  std::vector<std::string> listMemory;  // sizes, "none", "10%"; empty: none, and 10 % of synthetic loads
+  std::string onOverflow = "window";
+  std::optional<glm::ivec2> lights;  // of a scene: from, to
+  int repeat = 2;      // of each run: the first one compiles shaders
+  double minutes = 0;  // 0: a sweep
+  bool json = false;
+  std::string report;  // folder, empty: none
+};
+
 // Each runs its subcommand; the result is the program's exit code. Errors are thrown as base::Error.
 int render(const RenderOptions& options);
 int compare(const CompareOptions& options);
 int info(const InfoOptions& options);
+int stress(const StressOptions& options);
 
 }  // namespace sfumato::app

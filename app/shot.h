@@ -8,6 +8,7 @@
 #include "app/options.h"
 #include "image/image.h"
 #include "pipelines/quality.h"
+#include "scene/default_set.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
 
@@ -25,6 +26,11 @@ struct Shot {
   scene::Camera camera;
   pipelines::Quality quality;
 };
+
+// Reads everything that is drawn.
+Shot makeShot(const RenderOptions& options);
+// Of all that is there.
+scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Medium>& media);
 
 struct Drawn {
   image::Image radiance;

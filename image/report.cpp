@@ -88,8 +88,8 @@ std::string tableText(const Table& table) {
   return fmt::format(
       "<section><h2>{}</h2><div "
       "class=\"scroll\"><table><thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table>"
-      "</div></section>\n",
-      escaped(table.title), tableRow(table.header, "th"), rows);
+      "</div><p class=\"caption\">{}</p></section>\n",
+      escaped(table.title), tableRow(table.header, "th"), rows, escaped(table.caption));
 }
 
 // The colours of CountMaps, from none to most.

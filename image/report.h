@@ -41,6 +41,7 @@ struct CountMap {
 
 struct Table {
   std::string title;
+  std::string caption;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;  // a reader can sort them by any column
   std::vector<size_t> highlighted;             // rows in which something is wrong

@@ -1,5 +1,6 @@
 // Draws what stands in `drawn`, in the page's figures in turn; `palette` has the colours of count maps.
 const colours = ["#3060b8", "#d1662b", "#2c8a61", "#9a4fb0", "#b08a12", "#1694a6", "#c03a5b", "#6b7280"];
+const shapes = ["circle", "triangle", "rect", "rectRot", "star", "crossRot"];
 const short = new Intl.NumberFormat("en", {notation: "compact", maximumSignificantDigits: 3});
 const whole = new Intl.NumberFormat("en", {maximumSignificantDigits: 5});
 
@@ -8,17 +9,22 @@ Chart.defaults.color = "#5d6779";
 Chart.defaults.animation = false;
 Chart.defaults.maintainAspectRatio = false;
 
-const isPowerOfTen = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
-
 function axis(title, logarithmic, extra) {
   const decades = (value, index, ticks) => {
     const wide = ticks.length > 0 && ticks[ticks.length - 1].value / ticks[0].value > 100;
     const lead = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
-    return isPowerOfTen(value) || (!wide && (lead === 2 || lead === 5)) ? short.format(value) : "";
+    const round = Math.abs(value / 10 ** Math.floor(Math.log10(value) + 1e-9) - lead) < 1e-6;
+    return round && (lead === 1 || (!wide && (lead === 2 || lead === 5))) ? short.format(value) : "";
   };
   const ticks = {callback: logarithmic ? decades : (value) => short.format(value), autoSkip: !logarithmic, maxRotation: 0};
   return {type: logarithmic ? "logarithmic" : "linear", title: {display: title !== "", text: title}, ticks,
           grid: {color: "#eceff4"}, ...extra};
+}
+
+// The ends of a logarithmic axis of all points, with a little room.
+function around(datasets) {
+  const values = datasets.flatMap((dataset) => dataset.data.map((p) => p.x));
+  return {min: Math.min(...values) / 1.3, max: Math.max(...values) * 1.3};
 }
 
 function drawPlot(canvas, plot) {
@@ -28,17 +34,18 @@ function drawPlot(canvas, plot) {
   const datasets = plot.series.map((series, i) => ({
     label: series.name,
     data: bars ? series.points.map((p) => p[1]) : series.points.filter(shown).map((p) => ({x: p[0], y: p[1]})),
-    backgroundColor: colours[i % colours.length] + (bars ? "" : "cc"),
+    backgroundColor: colours[i % colours.length] + (bars ? "" : plot.kind === "points" ? "00" : "40"),
     borderColor: series.reference ? "#9aa3b2" : colours[i % colours.length],
-    borderWidth: bars ? 0 : series.reference ? 1 : 2,
+    borderWidth: bars ? 0 : series.reference ? 1 : 1.8,
     borderDash: series.reference ? [5, 4] : [],
-    pointRadius: series.reference ? 0 : 3.5,
-    pointHoverRadius: series.reference ? 0 : 6,
+    pointStyle: series.reference ? "line" : shapes[i % shapes.length],
+    pointRadius: series.reference ? 0 : 4.5,
+    pointHoverRadius: series.reference ? 0 : 7,
     showLine: plot.kind === "lines" || series.reference,
     maxBarThickness: 46,
   }));
   const x = bars ? {title: {display: plot.x !== "", text: plot.x}, grid: {display: false}, stacked}
-                 : axis(plot.x, plot.logX, {});
+                 : axis(plot.x, plot.logX, plot.logX ? around(datasets) : {});
   const label = (item) => `${item.dataset.label}: ` +
       (bars ? whole.format(item.parsed.y) : `${whole.format(item.parsed.x)}, ${whole.format(item.parsed.y)}`);
   new Chart(canvas, {
@@ -47,7 +54,7 @@ function drawPlot(canvas, plot) {
     options: {
       scales: {x, y: axis(plot.y, plot.logY, {stacked, beginAtZero: true})},
       plugins: {
-        legend: {display: datasets.length > 1, position: "bottom", labels: {boxWidth: 12, boxHeight: 12}},
+        legend: {display: datasets.length > 1, position: "bottom", labels: {usePointStyle: !bars, boxWidth: bars ? 12 : 8, boxHeight: bars ? 12 : 8}},
         tooltip: {callbacks: {label, ...(bars ? {} : {title: () => ""})}},
       },
     },

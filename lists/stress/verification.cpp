@@ -7,6 +7,19 @@
 
 namespace sfumato::lists::stress {
 
+Findings& Findings::operator+=(const Findings& other) {
+  lost += other.lost;
+  twice += other.twice;
+  foreign += other.foreign;
+  unsorted += other.unsorted;
+  torn += other.torn;
+  broken += other.broken;
+  misread += other.misread;
+  overwritten += other.overwritten;
+  if (fault.empty()) fault = other.fault;
+  return *this;
+}
+
 Verification::Verification(const Load& load) : load_(load), seen_((load.nodes() + 63) / 64) {}
 
 bool Verification::isFirst(uint32_t number) {
@@ -43,12 +56,22 @@ void Verification::addCell(uint32_t cell, std::span<const NodeKey> nodes,
         break;
       }
   }
-  if (found.good()) return;
+  if (!found.good()) add(cell, found);
+}
+
+void Verification::addBrokenRun(uint32_t cell, uint32_t first, uint32_t count) {
+  add(cell,
+      {.broken = 1,
+       .fault = fmt::format("cell {}: {} nodes from {} on are not within the pool", cell, count, first)});
+}
+
+void Verification::addMisread(uint32_t cell) {
+  add(cell, {.misread = 1, .fault = fmt::format("cell {}: a shader's lookups find other nodes in it", cell)});
+}
+
+void Verification::add(uint32_t cell, const Findings& found) {
   const std::lock_guard lock(mutex_);
-  findings_.twice += found.twice;
-  findings_.foreign += found.foreign;
-  findings_.unsorted += found.unsorted;
-  findings_.torn += found.torn;
+  findings_ += found;
   if (cell < faultyCell_) {
     faultyCell_ = cell;
     findings_.fault = found.fault;

@@ -4,10 +4,8 @@
 SHARED_BEGIN
 
 struct StressParams {
-  uint width;   // of the grid of cells
-  uint height;
-  uint nodes;
-  uint seed;
+  ivec4 load;    // x, y: the grid of cells; z: seed
+  ivec4 window;  // x: first cell that is built; y: cells; z: nodes that are dispatched
 };
 
 SHARED_END

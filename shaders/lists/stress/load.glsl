@@ -26,7 +26,7 @@ uint loadHash(uint x) {
 }
 
 uint loadDraw(uint number, uint use) {
-  return loadHash(number ^ loadHash(stressParams.seed * 128u + use));
+  return loadHash(number ^ loadHash(uint(stressParams.load.z) * 128u + use));
 }
 
 uint loadPayload(uint number, uint word) {
@@ -41,8 +41,8 @@ uint loadSpot(uint start, uint bits, uint side) {
 
 // DISTRIBUTION counts as in lists/stress/load.h.
 void loadNode(uint number, out uint cell, out float depth) {
-  uint width = stressParams.width;
-  uint height = stressParams.height;
+  uint width = uint(stressParams.load.x);
+  uint height = uint(stressParams.load.y);
 #if DISTRIBUTION == 3
   uint strand = number / width;
   uint x = number - strand * width;

@@ -1,0 +1,251 @@
+// `sfumato stress` as a stranger meets it, and what it sees when a shader loses nodes.
+#include <sys/stat.h>
+
+#include <csignal>
+#include <thread>
+
+#include "tests/app/program.h"
+#include "tests/gl/test_device.h"
+
+namespace sfumato::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A shader of the program, for a test to break.
+std::string shader(const std::string& name) {
+  const std::string text = contentOf(fs::path(SFUMATO_SOURCE_DIR) / "shaders" / name);
+  EXPECT_FALSE(text.empty()) << name;
+  return text;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+class Stress : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (tests::testDevice() != nullptr) return;
+    const char* ci = std::getenv("CI");
+    if (ci != nullptr && std::string(ci) == "true") FAIL() << tests::whyNoDevice();
+    GTEST_SKIP() << tests::whyNoDevice();
+  }
+
+  // A small run of one load and all strategies, with more arguments.
+  Outcome run(Arguments more, const Surroundings& surroundings = {}) const {
+    Arguments arguments = {"stress", "--repeat", "1"};
+    const auto add = [&](const std::string& option, const std::string& value) {
+      if (std::find(more.begin(), more.end(), option) == more.end())
+        arguments.insert(arguments.end(), {option, value});
+    };
+    add("--cells", "32x24");
+    add("--layers", "6");
+    add("--distribution", "hot-spot");
+    add("--list-memory", "none");
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(folder.path(), arguments, surroundings);
+  }
+
+  // Writes a broken shader into a folder of its own, and runs with it.
+  Json runBroken(const std::string& name, const std::string& text, Arguments more = {}) const {
+    fs::create_directories((folder.path() / "broken" / name).parent_path());
+    folder.write("broken/" + name, text);
+    more.insert(more.end(), {"--json", "--shader-dir", "broken"});
+    const Outcome outcome = run(more);
+    EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+    return Json::parse(outcome.out);
+  }
+
+  TemporaryFolder folder{"stress_gpu"};
+};
+
+TEST_F(Stress, FindsEveryNodeOfEveryLoadAndStrategy) {
+  const Outcome outcome =
+      run({"--distribution", "uniform,hot-spot,one-cell,hair", "--node-bytes", "0,8", "--json"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err << outcome.out;
+  const Json result = Json::parse(outcome.out);
+  EXPECT_EQ(result["device"], tests::testDevice()->names().renderer);
+  ASSERT_EQ(result["runs"].size(), 4u * 2u * 4u);
+  for (const Json& one : result["runs"]) {
+    const size_t nodes = one["distribution"] == "one-cell" ? 6 * 32 : 6 * 32 * 24;
+    EXPECT_EQ(one["demanded"], nodes) << one;
+    EXPECT_EQ(one["stored"], nodes) << one;
+    EXPECT_EQ(one["lost"], 0) << one;
+    EXPECT_EQ(one["fault"], "") << one;
+    EXPECT_EQ(one["windows"], 1) << one;
+    EXPECT_EQ(one["bytes_per_node"], 8 + one["payload_bytes"].get<int>()) << one;
+    EXPECT_GE(one["peak_bytes"], nodes * one["bytes_per_node"].get<size_t>()) << one;
+    size_t cells = 0, shown = 0;
+    for (const Json& lengths : one["lengths"]) {
+      cells += lengths["cells"].get<size_t>();
+      shown = lengths["to"];
+    }
+    EXPECT_EQ(cells, 32u * 24u) << one;
+    EXPECT_GE(shown, one["longest"].get<size_t>()) << one;
+    if (one["distribution"] == "uniform") {
+      EXPECT_EQ(one["longest"], 6) << one;
+    } else {
+      EXPECT_GT(one["longest"], 20) << one;
+    }
+  }
+}
+
+TEST_F(Stress, KeepsABudgetAndLosesNothing) {
+  const Json result =
+      Json::parse(run({"--cells", "128x128", "--layers", "16", "--list-memory", "10%,1M", "--json"}).out);
+  ASSERT_EQ(result["runs"].size(), 8u);
+  for (const Json& one : result["runs"]) {
+    EXPECT_EQ(one["lost"], 0) << one;
+    EXPECT_EQ(one["stored"], 128 * 128 * 16) << one;
+    EXPECT_GT(one["windows"], 2) << one;
+    EXPECT_LE(one["peak_bytes"], one["budget_bytes"]) << one;
+    EXPECT_LE(one["predicted_bytes"], one["budget_bytes"]) << one;
+  }
+}
+
+TEST_F(Stress, SaysWhatABudgetWouldHaveToBe) {
+  for (const char* strategy : {"spinlock", "lockfree", "append", "count"}) {
+    const Outcome outcome =
+        run({"--distribution", "one-cell", "--layers", "512", "--list-memory", "64K", "--lists", strategy});
+    expectError(outcome, 5, "16384 nodes");
+    EXPECT_NE(outcome.err.find("MiB"), std::string::npos) << outcome.err;
+  }
+  expectError(run({"--cells", "128x128", "--list-memory", "64K", "--on-overflow", "error"}), 5, "MiB");
+}
+
+TEST_F(Stress, ReportsWhatWasBuiltWhereABudgetRefusesSome) {
+  const Outcome outcome = run({"--distribution", "one-cell", "--layers", "4,512", "--list-memory", "64K",
+                               "--lists", "count", "--json"});
+  EXPECT_EQ(outcome.exitCode, 5) << outcome.err;
+  const Json result = Json::parse(outcome.out);
+  ASSERT_EQ(result["runs"].size(), 2u);
+  EXPECT_FALSE(result["runs"][0].contains("refused"));
+  EXPECT_TRUE(result["runs"][1].contains("refused"));
+  EXPECT_EQ(result["refused_runs"], 1);
+}
+
+// ---- negative controls -----------------------------------------------------------------------------------
+
+TEST_F(Stress, SeesNodesThatAShaderDrops) {
+  const std::string insert = shader("lists/stress/insert.comp");
+  const Json result =
+      runBroken("lists/stress/insert.comp",
+                replaced(insert, "  uint cell;\n", "  if (number % 1000u == 17u) return;\n  uint cell;\n"));
+  ASSERT_EQ(result["runs"].size(), 4u);
+  for (const Json& one : result["runs"]) EXPECT_EQ(one["lost"], 5) << one;  // 17, 1017, ... of 4608
+  EXPECT_EQ(result["lost"], 20);
+}
+
+TEST_F(Stress, SeesNodesThatStandTwiceOrElsewhere) {
+  const std::string insert = shader("lists/stress/insert.comp");
+  for (const auto& [from, to, kind] :
+       {std::tuple("  uint number = index;", "  uint number = index == 9u ? 8u : index;", "twice"),
+        {"  loadNode(number, cell, depth);",
+         "  loadNode(number, cell, depth);\n  if (number == 9u) depth *= 0.5;", "foreign"},
+        {"  StressPayload payload;", "  StressPayload payload;\n  if (number == 9u) number = 8u;",
+         "twice"}}) {
+    const Json result = runBroken("lists/stress/insert.comp", replaced(insert, from, to));
+    for (const Json& one : result["runs"]) {
+      EXPECT_GE(one[kind], 1) << one;
+      EXPECT_EQ(one["lost"], std::string(kind) == "twice" ? 1 : 0) << one;
+      EXPECT_NE(one["fault"], "") << one;
+    }
+  }
+}
+
+TEST_F(Stress, SeesLookupsThatReadOtherNodes) {
+  const std::string lookup = shader("lists/stress/lookup.comp");
+  const Json result = runBroken("lists/stress/lookup.comp",
+                                replaced(lookup, "<= depth) {", "< depth * 0.99) {"), {"--lists", "count"});
+  EXPECT_GT(result["runs"][0]["misread"], 0);
+  EXPECT_EQ(result["runs"][0]["lost"], 0);
+}
+
+// ---- what it writes --------------------------------------------------------------------------------------
+
+TEST_F(Stress, WritesOnePageThatNeedsNothingElse) {
+  const Outcome outcome = run({"--report", "new/folder", "--list-memory", "none,20%"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  if (outcome.err.find("built without Chart.js") != std::string::npos) GTEST_SKIP() << outcome.err;
+  const fs::path page = folder.path() / "new/folder/index.html";
+  const std::string text = contentOf(page);
+  EXPECT_EQ(std::distance(fs::directory_iterator(page.parent_path()), {}), 1);
+  EXPECT_GT(text.size(), 200000u);
+  EXPECT_LT(text.size(), 1000000u);
+  for (const char* part :
+       {"Requested against capacity", "Heat map of list lengths", "Strategies side by side",
+        "none lost, none twice", "hot-spot", "Chart.js v3", "</html>"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  for (const char* outside : {" src=", "<link", "@import", "url("})
+    EXPECT_EQ(text.find(outside), std::string::npos) << outside;
+}
+
+TEST_F(Stress, SaysThatAReportCannotBeWritten) {
+  folder.write("file", "");
+  expectError(run({"--report", "file"}), 3, "file");
+  expectError(run({"--report", "file/folder"}), 3, "file/folder");
+  fs::create_directories(folder.path() / "taken/index.html");
+  expectError(run({"--report", "taken"}), 3, "index.html");
+}
+
+TEST_F(Stress, ShowsATableWithALineForEachRun) {
+  const Outcome outcome = run({});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  for (const char* strategy : {"\nspinlock  hot-spot  32x24", "\nlockfree  ", "\nappend  ", "\ncount  "})
+    EXPECT_NE(outcome.out.find(strategy), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n4 runs, 18432 nodes: none lost"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.err.find("stress: 100%"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run({"-q"}).err, "");
+}
+
+TEST_F(Stress, MakesTheSameListsOfTheSameSeed) {
+  const auto lengths = [&](const char* seed) {
+    return Json::parse(run({"--seed", seed, "--lists", "append", "--json"}).out)["runs"][0]["lengths"];
+  };
+  EXPECT_EQ(lengths("3"), lengths("3"));
+  EXPECT_NE(lengths("3"), lengths("4"));
+}
+
+// ---- soaking ---------------------------------------------------------------------------------------------
+
+TEST_F(Stress, SoaksForItsTimeWithChangingLoads) {
+  const Outcome outcome = run({"--minutes", "0.03", "--distribution", "uniform,hair,one-cell", "--json"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err << outcome.out;
+  const Json result = Json::parse(outcome.out);
+  EXPECT_GE(result["seconds"], 1.8);
+  ASSERT_GT(result["runs"].size(), 4u);
+  std::set<std::string> loads;
+  for (const Json& one : result["runs"]) {
+    EXPECT_EQ(one["lost"], 0) << one;
+    loads.insert(one["distribution"].dump() + one["width"].dump() + one["layers"].dump() +
+                 one["budget_bytes"].dump());
+  }
+  EXPECT_GT(loads.size(), 4u);
+}
+
+TEST_F(Stress, EndsWithTheReportSoFarWhenInterrupted) {
+  // The program is stopped by a process of its own group, as Ctrl-C does.
+  const auto interrupt = [] {
+    const pid_t program = getpid();
+    if (fork() != 0) return;
+    sleep(2);
+    kill(program, SIGINT);
+    _exit(0);
+  };
+  const Outcome outcome = run({"--minutes", "10", "--json"}, {.inChild = interrupt});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+  const Json result = Json::parse(outcome.out);
+  EXPECT_EQ(result["interrupted"], true);
+  EXPECT_GT(result["runs"].size(), 0u);
+}
+
+TEST_F(Stress, NeedsOpenGl) {
+  expectError(run({}, {.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}}), 4,
+              "no usable OpenGL 4.3");
+}
+
+}  // namespace
+}  // namespace sfumato::test
