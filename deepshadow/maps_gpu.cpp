@@ -268,7 +268,7 @@ class Builder {
   gl::Buffer passBlock_;
   gl::Buffer counters_;
   gl::Texture depth_;  // opaque depth of the face that is built
-  std::optional<lists::Lists> lists_;
+  std::optional<lists::LinkedLists> lists_;
   size_t listCells_ = 0;
   size_t firstKnot_ = 0;  // of the window that is built
 };

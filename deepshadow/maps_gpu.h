@@ -15,7 +15,7 @@
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "lights/light.h"
-#include "lists/lists_gpu.h"
+#include "lists/linked_lists_gpu.h"
 #include "volumes/volumes_gpu.h"
 
 namespace sfumato::deepshadow {

@@ -144,18 +144,19 @@ void Texture::bind(unsigned unit) const {
 }
 
 BufferTexture::BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format) {
-  const size_t texelBytes = format == BufferFormat::RGBA32F ? 16 : 12;
+  constexpr GLenum internals[] = {GL_R32UI, GL_RG32UI, GL_RGB32UI, GL_RGBA32F};
+  const size_t texelBytes = 4 * (static_cast<size_t>(format) + 1);
   const auto limit = static_cast<size_t>(device.limits().textureBufferTexels) * texelBytes;
   if (buffer.bytes() > limit)
     fail(ExitCode::Memory,
-         "{:.1f} MiB of shadow maps, this device reads {:.1f} MiB at once: lower --shadow-res",
+         "a buffer of {:.1f} MiB, this device reads {:.1f} MiB at once: lower --res or --shadow-res",
          static_cast<double>(buffer.bytes()) / 0x1p20, static_cast<double>(limit) / 0x1p20);
   GLuint name = 0;
   glGenTextures(1, &name);
   object_ = Object<deleteTexture>(name);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_BUFFER, name);
-  glTexBuffer(GL_TEXTURE_BUFFER, format == BufferFormat::RGBA32F ? GL_RGBA32F : GL_RGB32UI, buffer.name());
+  glTexBuffer(GL_TEXTURE_BUFFER, internals[static_cast<int>(format)], buffer.name());
 }
 
 void BufferTexture::bind(unsigned unit) const {

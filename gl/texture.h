@@ -18,7 +18,7 @@ void deleteTexture(unsigned name);
 void deleteFramebuffer(unsigned name);
 
 enum class Format { R32F, RGBA8, SRGB8A8, RGBA32UI, Depth32F };
-enum class BufferFormat { RGBA32F, RGB32UI };
+enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32F };
 enum class Filter { Nearest, Linear };
 enum class Minify {  // within a level, then between levels
   Nearest,

@@ -10,7 +10,7 @@
 #include "gl/device.h"
 #include "gl/program.h"
 #include "lights/light.h"
-#include "lists/lists_gpu.h"
+#include "lists/linked_lists_gpu.h"
 
 namespace sfumato::lights {
 
@@ -37,7 +37,7 @@ class LightLists {
 
   int directionalLights() const { return directional_; }
   const lists::ListStatistics& statistics() const { return statistics_; }
-  const lists::Lists& lists() const { return lists_; }
+  const lists::LinkedLists& lists() const { return lists_; }
   // Scene indices of the lights by the numbers that the lists hold.
   const std::vector<int>& order() const { return order_; }
   // For shaders that include shaders/lights/light_lists.glsl.
@@ -47,7 +47,7 @@ class LightLists {
   std::vector<int> order_;
   int directional_ = 0;
   gl::Buffer lights_;
-  lists::Lists lists_;
+  lists::LinkedLists lists_;
   lists::ListStatistics statistics_;
 };
 

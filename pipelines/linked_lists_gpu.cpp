@@ -40,7 +40,7 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
 struct ResolveInputs {
   const gl::Buffer& view;
   const GBuffer& gbuffer;
-  const lists::Lists& surfaces;
+  const lists::LinkedLists& surfaces;
   const lights::LightLists& lights;
   const deepshadow::Maps& shadows;
   const volumes::VolumesGpu& volumes;
@@ -65,7 +65,7 @@ struct Split {
 
 void bindRayInputs(const ResolveInputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
-  inputs.surfaces.bind(STORAGE_LIST_HEADS, STORAGE_LIST_LINKS, STORAGE_LIST_PAYLOADS);
+  inputs.surfaces.bind(STORAGE_OLD_HEADS, STORAGE_OLD_LINKS, STORAGE_OLD_PAYLOADS);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   inputs.gbuffer.surface0.bind(TEXTURE_SURFACE_0);
   inputs.gbuffer.surface1.bind(TEXTURE_SURFACE_1);

@@ -13,7 +13,7 @@
 #include "gl/device.h"
 #include "image/image.h"
 #include "lights/light_lists_gpu.h"
-#include "lists/lists_gpu.h"
+#include "lists/linked_lists_gpu.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/quality.h"
 #include "scene/scene.h"

@@ -10,7 +10,7 @@ namespace sfumato::pipelines {
 SurfaceLists buildSurfaceLists(gl::Device& device, const SurfaceListInputs& inputs) {
   const size_t pixels = static_cast<size_t>(inputs.width) * static_cast<size_t>(inputs.height);
   SurfaceLists result{
-      lists::Lists(device, "surface lists", pixels, sizeof(shared::PackedSurface), pixels / 4), {}};
+      lists::LinkedLists(device, "surface lists", pixels, sizeof(shared::PackedSurface), pixels / 4), {}};
   const auto samples = static_cast<int>(inputs.gbuffer.samplePositions.size());
   const gl::Framebuffer noTarget({inputs.width, inputs.height}, samples);
   result.statistics = result.lists.build(device, [&] {

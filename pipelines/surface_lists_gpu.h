@@ -3,7 +3,7 @@
 
 #include "gl/buffer.h"
 #include "gl/device.h"
-#include "lists/lists_gpu.h"
+#include "lists/linked_lists_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/geometry_gpu.h"
 
@@ -19,7 +19,7 @@ struct SurfaceListInputs {
 
 // Payloads are shared::PackedSurface.
 struct SurfaceLists {
-  lists::Lists lists;
+  lists::LinkedLists lists;
   lists::ListStatistics statistics;
 };
 

@@ -1,9 +1,9 @@
 // Nodes of deep shadow lists.
-#include "shaders/lists/insert.glsl"
+#include "shaders/lists/linked_insert.glsl"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
 
-layout(std430, binding = STORAGE_LIST_PAYLOADS) buffer ShadowNodes {
+layout(std430, binding = STORAGE_OLD_PAYLOADS) buffer ShadowNodes {
   ShadowNode shadowNodes[];
 };
 

@@ -2,7 +2,7 @@
 // far side of the proxy counts: it covers every cell once, also with the camera inside the light.
 #include "shaders/lights/light.glsl"
 #include "shaders/lights/proxy.glsl"
-#include "shaders/lists/insert.glsl"
+#include "shaders/lists/linked_insert.glsl"
 #include "shaders/shared/view.h"
 
 layout(std140, binding = UNIFORM_VIEW) uniform View {
@@ -11,7 +11,7 @@ layout(std140, binding = UNIFORM_VIEW) uniform View {
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   LightPassParams params;
 };
-layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer Payloads {
+layout(std430, binding = STORAGE_OLD_PAYLOADS) writeonly buffer Payloads {
   float backDepths[];
 };
 

@@ -1,6 +1,6 @@
 // Puts the nodes of each cell's overflow list in their sorted place. One invocation owns a cell, so no lock is
 // needed; one that has walked far stops, and the pass is run again until listCounters.unmerged is 0.
-#include "shaders/lists/insert.glsl"
+#include "shaders/lists/linked_insert.glsl"
 #include "shaders/shared/linear_id.glsl"
 
 const uint WORK_LIMIT = 30000u;

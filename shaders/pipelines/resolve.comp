@@ -5,7 +5,7 @@
 // objects that do not shadow themselves.
 #include "shaders/deepshadow/lookup.glsl"
 #include "shaders/lights/light_lists.glsl"
-#include "shaders/lists/links.glsl"
+#include "shaders/lists/old_links.glsl"
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/resolve.h"
@@ -29,7 +29,7 @@ layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
 layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   ResolveCounters counters;
 };
-layout(std430, binding = STORAGE_LIST_PAYLOADS) readonly buffer SurfaceNodes {
+layout(std430, binding = STORAGE_OLD_PAYLOADS) readonly buffer SurfaceNodes {
   PackedSurface surfaceNodes[];
 };
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;

@@ -1,6 +1,6 @@
 // Finds the pixels whose samples differ: edges of surfaces, opaque or translucent, and of their colours. Those are walked
 // sample by sample, all others once through their centre.
-#include "shaders/lists/links.glsl"
+#include "shaders/lists/old_links.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/math.glsl"
@@ -11,7 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = UNIFORM_VIEW) uniform View {
   ViewParams view;
 };
-layout(std430, binding = STORAGE_LIST_PAYLOADS) readonly buffer SurfaceNodes {
+layout(std430, binding = STORAGE_OLD_PAYLOADS) readonly buffer SurfaceNodes {
   PackedSurface surfaceNodes[];
 };
 layout(std430, binding = STORAGE_PIXEL_GROUPS) writeonly buffer Groups {

@@ -1,11 +1,11 @@
 // Translucent surfaces of the camera into the lists of its pixels: those before the opaque depth of any of the
 // pixel's SAMPLES, and no others.
-#include "shaders/lists/insert.glsl"
+#include "shaders/lists/linked_insert.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/scene/surface.glsl"
 
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
-layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer Payloads {
+layout(std430, binding = STORAGE_OLD_PAYLOADS) writeonly buffer Payloads {
   PackedSurface payloads[];
 };
 

@@ -1,12 +1,12 @@
 // Every invocation inserts one node into a hashed cell with a hashed depth: contention across lanes and workgroups.
 // WITHOUT_LOCK is the negative control: the same insertion by plain loads and stores.
-#include "shaders/lists/insert.glsl"
+#include "shaders/lists/linked_insert.glsl"
 #include "shaders/shared/linear_id.glsl"
 
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   uvec4 params;  // nodes, cells, distinct depths, seed
 };
-layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer Payloads {
+layout(std430, binding = STORAGE_OLD_PAYLOADS) writeonly buffer Payloads {
   uint payloads[];
 };
 
