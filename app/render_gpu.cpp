@@ -13,13 +13,14 @@ namespace {
 pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& pipeline, const Shot& shot,
                             const RenderOptions& options, std::vector<double>& seconds) {
   pipelines::Frame frame;
-  base::Progress progress("rendering", options.repeat);
+  const auto tiles = pipelines::tilesOf(options.width, options.height).size();
+  base::Progress progress("rendering", options.repeat * static_cast<long>(tiles));
   for (int i = 0; i < options.repeat; ++i) {
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
-    frame = pipeline.render(shot.camera, options.width, options.height, shot.quality);
+    frame = pipeline.render(shot.camera, options.width, options.height, shot.quality,
+                            {.onTile = [&] { progress.advance(); }});
     seconds.push_back(secondsSince(start));
-    progress.advance();
   }
   return frame;
 }

@@ -9,7 +9,7 @@ nlohmann::json toJson(const lists::ListStatistics& lists) {
   return {{"cells", lists.cells},        {"nodes_demanded", lists.demand},
           {"capacity", lists.capacity},  {"overflowed", lists.overflowed},
           {"max_spins", lists.maxSpins}, {"builds", lists.builds},
-          {"bytes", lists.bytes}};
+          {"windows", lists.windows},    {"bytes", lists.bytes}};
 }
 
 nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {
@@ -29,12 +29,11 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
   nlohmann::json result;
   result["device"] = device.names().renderer;
   result["startup"] = {{"seconds", times.startupSeconds}, {"passes", toJson(times.startupPasses)}};
-  result["frame"] = {{"seconds", times.frameSeconds},
-                     {"passes", toJson(times.framePasses)},
-                     {"triangles", statistics.triangles},
-                     {"split_pixels", statistics.splitPixels},
-                     {"resolve_dispatches", statistics.resolveDispatches},
-                     {"cut_walks", statistics.cutWalks}};
+  result["frame"] = {
+      {"seconds", times.frameSeconds},          {"passes", toJson(times.framePasses)},
+      {"triangles", statistics.triangles},      {"tiles", statistics.tiles},
+      {"split_pixels", statistics.splitPixels}, {"resolve_dispatches", statistics.resolveDispatches},
+      {"cut_walks", statistics.cutWalks}};
   result["lists"] = {{"surfaces", toJson(statistics.surfaces)}, {"lights", toJson(statistics.lights)}};
   result["lists"]["shadows"] = nlohmann::json::array();
   for (const deepshadow::LightMap& map : statistics.shadows) {

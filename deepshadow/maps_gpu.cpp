@@ -245,7 +245,7 @@ class Builder {
 
   void usePass(const Window& window) {
     shared::ShadowPassParams params{};
-    params.march = {static_cast<float>(inputs_.stepMetres), static_cast<float>(inputs_.error), 0.f, 0.f};
+    params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(inputs_.error), 0.f, 0.f};
     params.range = {static_cast<int>(firstKnot_), static_cast<int>(window.cells()), 0, 0};
     passBlock_.writeValue(params);
     passBlock_.bindUniform(UNIFORM_PASS);

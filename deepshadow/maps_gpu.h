@@ -40,7 +40,7 @@ struct MapInputs {
   const std::vector<glm::dvec3>& receivers;      // see directionalFace()
   const std::vector<glm::dvec3>& castingPoints;  // its `casters`
   int resolution = 1024;                         // texels a side; a face of a cube has half
-  double stepMetres = 0.01;                      // of the march through smoke
+  double stepVoxels = 1.5;                       // of the march through smoke
   double error =
       1.0 /
       512;  // bound of the error that compression adds to the transmittance of smoke; 0 keeps every step

@@ -1,5 +1,6 @@
 #include "demos/gltf_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -85,9 +86,19 @@ void Shape::addSurface(int columns, int rows, const std::function<vec3(float u, 
     }
 }
 
+void Shape::addBall(const vec3& centre, float radius) {
+  addSurface(96, 48, [=](float u, float v) {
+    // A hair off the poles, where the surface has no direction.
+    const float polar = pi * (0.002f + 0.996f * v), azimuth = 2 * pi * u;
+    return centre + radius * vec3(std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                  std::sin(polar) * std::cos(azimuth));
+  });
+}
+
 Gltf::Gltf(const std::string& generator) {
   root_["asset"] = {{"version", "2.0"}, {"generator", "sfumato " + generator}};
-  root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission"};
+  root_["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_transmission",
+                             "KHR_materials_emissive_strength"};
   root_["scene"] = 0;
 }
 
@@ -102,6 +113,11 @@ size_t Gltf::addMaterial(const Material& material) {
   if (material.alpha < 1) entry["alphaMode"] = "BLEND";
   if (material.transmission > 0)
     entry["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
+  const float brightest = std::max({material.emission.x, material.emission.y, material.emission.z});
+  if (brightest > 0) {
+    entry["emissiveFactor"] = toJson(material.emission / brightest);
+    entry["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", brightest}};
+  }
   if (!material.picture.empty()) {
     const size_t image = add("images", {{"uri", material.picture}});
     entry["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", add("textures", {{"source", image}})}};

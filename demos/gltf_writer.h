@@ -29,6 +29,8 @@ struct Shape {
   void addTube(const glm::vec3& foot, float height, float lower, float upper, int sides = 48);
   // A level disc that looks up.
   void addDisc(const glm::vec3& centre, float radius, int sides = 48);
+  // A sphere, with a pinhole at its poles.
+  void addBall(const glm::vec3& centre, float radius);
   // A grid over u and v in [0, 1], seen from where cross(dP/dv, dP/du) points to.
   void addSurface(int columns, int rows, const std::function<glm::vec3(float u, float v)>& point);
 };
@@ -38,9 +40,10 @@ struct Material {
   glm::vec3 colour{1.f};
   float roughness = 0.9f;
   float alpha = 1;
-  float transmission = 0;  // of the light that its alpha stops, what passes in its colour
-  std::string picture;     // path of the base colour's texture, relative to the glTF; empty: none
-  nlohmann::json extras;   // null: none
+  float transmission = 0;   // of the light that its alpha stops, what passes in its colour
+  glm::vec3 emission{0.f};  // radiance
+  std::string picture;      // path of the base colour's texture, relative to the glTF; empty: none
+  nlohmann::json extras;    // null: none
 };
 
 // A glTF file in the making; indices are as in the format.

@@ -65,18 +65,9 @@ void addSmoke(Gltf& gltf, const char* file, float scale, json placement, const v
   gltf.addNode("smoke", placement);
 }
 
-void addBall(Shape& shape, const vec3& centre, float radius) {
-  shape.addSurface(96, 48, [=](float u, float v) {
-    // A hair off the poles, where the surface has no direction.
-    const float polar = pi * (0.002f + 0.996f * v), azimuth = 2 * pi * u;
-    return centre + radius * vec3(std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                                  std::sin(polar) * std::cos(azimuth));
-  });
-}
-
 Shape ball(const vec3& centre, float radius) {
   Shape shape;
-  addBall(shape, centre, radius);
+  shape.addBall(centre, radius);
   return shape;
 }
 
@@ -130,7 +121,7 @@ Shape teapot() {
     const float angle = 0.5f * pi * v;
     return vec2(0.001f + 0.28f * std::sin(angle), 0.5f + 0.06f * std::cos(angle));
   });
-  addBall(shape, {0, 0.6f, 0}, 0.045f);
+  shape.addBall({0, 0.6f, 0}, 0.045f);
   addPipe(
       shape, [](float v) { return vec2(0.37f + 0.33f * v, 0.2f + 0.32f * v * v * (1.5f - 0.5f * v)); },
       [](float v) { return 0.075f - 0.04f * v; });

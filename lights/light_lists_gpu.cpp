@@ -40,43 +40,69 @@ size_t cellsAlong(int pixels) {
 
 }  // namespace
 
-LightLists::LightLists(gl::Device& device, const LightListInputs& inputs)
+LightLists::Cells LightLists::cellsOf(const LightListInputs& inputs) {
+  const glm::ivec4 window = inputs.window.value_or(glm::ivec4(0, 0, inputs.width, inputs.height));
+  const glm::ivec2 first = glm::ivec2(window) / cellSide;
+  return {.ofImage = {cellsAlong(inputs.width), cellsAlong(inputs.height)},
+          .first = first,
+          .count = glm::ivec2(cellsAlong(window.x + window.z), cellsAlong(window.y + window.w)) - first};
+}
+
+LightLists::LightLists(gl::Device& device, const LightListInputs& inputs, const Cells& cells)
     : order_(lightOrder(inputs.lights)),
-      lists_(device, "light lists", cellsAlong(inputs.width) * cellsAlong(inputs.height), sizeof(float),
-             cellsAlong(inputs.width) * cellsAlong(inputs.height) * 4) {
+      lists_(device, "light lists", cells.number(), sizeof(float), inputs.lists) {
   std::vector<shared::LightData> data;
-  size_t points = 0;
-  size_t spots = 0;
   for (const int number : order_) {
     const Light& light = inputs.lights[static_cast<size_t>(number)];
     data.push_back(lightData(light, inputs.shadows[static_cast<size_t>(number)], number));
     directional_ += light.type == LightType::Directional;
-    points += light.type == LightType::Point;
-    spots += light.type == LightType::Spot;
   }
   lights_ = gl::Buffer(device, "lights", std::span<const shared::LightData>(data));
 
-  const glm::ivec2 cells(cellsAlong(inputs.width), cellsAlong(inputs.height));
   shared::LightPassParams params{};
-  params.cells = {cells.x, cells.y, cellSide, directional_};
-  gl::Buffer passBlock(device, "light list pass", sizeof params);
-  passBlock.writeValue(params);
+  params.cells = {cells.ofImage.x, cells.ofImage.y, cellSide, directional_};
+  params.window = {cells.first.x, cells.first.y, cells.count.x, 0};
+  passBlock_ = gl::Buffer(device, "light list pass", sizeof params);
+  passBlock_.writeValue(params);
+}
 
-  const gl::Program& program = device.program({"lights/light_lists.vert", "lights/light_lists.frag"});
-  const gl::Framebuffer noTarget(cells);
-  statistics_ = lists_.build(device, [&] {
-    lights_.bindStorage(STORAGE_LIGHTS);
-    inputs.view.bindUniform(UNIFORM_VIEW);
-    passBlock.bindUniform(UNIFORM_PASS);
-    gl::setDrawState(
-        {.program = &program, .target = &noTarget, .viewport = {0, 0, cells.x, cells.y}, .depthClamp = true});
-    if (points + spots > 0) gl::drawGenerated(device, proxyVertices, points + spots);
-  });
+LightLists::LightLists(gl::Device& device, const LightListInputs& inputs)
+    : LightLists(device, inputs, cellsOf(inputs)) {
+  statistics_ =
+      lists_.build(device, [&](const lists::Pass& pass) { store(device, inputs, cellsOf(inputs), pass); });
+}
+
+std::optional<LightLists> LightLists::tryBuild(gl::Device& device, const LightListInputs& inputs) {
+  const Cells cells = cellsOf(inputs);
+  LightLists result(device, inputs, cells);
+  const auto statistics = result.lists_.tryBuild(
+      device, cells.number(), [&](const lists::Pass& pass) { result.store(device, inputs, cells, pass); });
+  if (!statistics) return std::nullopt;
+  result.statistics_ = *statistics;
+  return result;
+}
+
+// Fragments are those of the whole image, so that a cell's list is the same whatever the window.
+void LightLists::store(gl::Device& device, const LightListInputs& inputs, const Cells& cells,
+                       const lists::Pass& pass) const {
+  const size_t proxies = order_.size() - static_cast<size_t>(directional_);
+  if (proxies == 0) return;
+  const gl::Framebuffer noTarget(cells.ofImage);
+  lights_.bindStorage(STORAGE_LIGHTS);
+  inputs.view.bindUniform(UNIFORM_VIEW);
+  passBlock_.bindUniform(UNIFORM_PASS);
+  gl::setDrawState(
+      {.program = &device.program({"lights/light_lists.vert", "lights/light_lists.frag"}, pass.defines),
+       .target = &noTarget,
+       .viewport = {0, 0, cells.ofImage.x, cells.ofImage.y},
+       .scissor = glm::ivec4(cells.first, cells.count),
+       .depthClamp = true});
+  gl::drawGenerated(device, proxyVertices, proxies);
 }
 
 void LightLists::bind() const {
   lights_.bindStorage(STORAGE_LIGHTS);
-  lists_.bind(STORAGE_LIGHT_CELL_HEADS, STORAGE_LIGHT_CELL_LINKS, STORAGE_LIGHT_CELL_PAYLOADS);
+  lists_.bind(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, TEXTURE_LIGHT_CELL_BACKS);
 }
 
 }  // namespace sfumato::lights

@@ -145,7 +145,8 @@ void Lists::reserveNodes(gl::Device& device, size_t nodes) {
   keys_ = pool(capacity_, sizeof(ListKey));
   keysView_ = gl::BufferTexture(device, keys_, gl::BufferFormat::RG32UI);
   payloads_ = pool(capacity_, payloadBytes_);
-  payloadsView_ = gl::BufferTexture(device, payloads_, gl::BufferFormat::R32UI);
+  payloadsView_ = gl::BufferTexture(
+      device, payloads_, payloadWords() % 2 == 0 ? gl::BufferFormat::RG32UI : gl::BufferFormat::R32UI);
   if (!linked()) return;
   links_ = pool(capacity_ + 1, sizeof(ListLink));
   linksView_ = gl::BufferTexture(device, links_, gl::BufferFormat::RGB32UI);

@@ -8,7 +8,8 @@
 namespace sfumato::pipelines {
 
 GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
-  const glm::ivec3 size(inputs.width, inputs.height, 1);
+  const Tile tile = inputs.tile.value_or(Tile{0, 0, inputs.width, inputs.height});
+  const glm::ivec3 size(tile.width, tile.height, 1);
   const int samples = inputs.samples > 1 ? inputs.samples : 0;  // one sample is an ordinary texture
   GBuffer result{
       gl::Texture(device, "G-buffer surface 0",
@@ -16,6 +17,7 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
       gl::Texture(device, "G-buffer surface 1",
                   {.format = gl::Format::RGBA32UI, .size = size, .samples = samples}),
       gl::Texture(device, "G-buffer depth", {.format = gl::Format::R32F, .size = size, .samples = samples}),
+      tile,
       {}};
   const gl::Texture depthTest(device, "depth test",
                               {.format = gl::Format::Depth32F, .size = size, .samples = samples});
@@ -28,7 +30,7 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
   gl::setDrawState({.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}),
                     .target = &target,
-                    .viewport = {0, 0, inputs.width, inputs.height},
+                    .viewport = {-tile.x, -tile.y, inputs.width, inputs.height},
                     .depthTest = true});
   inputs.geometry.draw(Layer::Opaque, true);
   result.samplePositions = target.samplePositions();

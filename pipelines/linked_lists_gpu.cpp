@@ -1,6 +1,7 @@
 #include "pipelines/linked_lists_gpu.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/error.h"
 #include "gl/commands.h"
@@ -40,21 +41,13 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
 struct ResolveInputs {
   const gl::Buffer& view;
   const GBuffer& gbuffer;
-  const lists::LinkedLists& surfaces;
+  const lists::Lists& surfaces;
   const lights::LightLists& lights;
   const deepshadow::Maps& shadows;
   const volumes::VolumesGpu& volumes;
   const GeometryGpu& geometry;
-  int width = 0;
-  int height = 0;
-  Quality quality;
-};
-
-struct ResolveOutputs {
-  image::Image radiance;
-  size_t splitPixels = 0;
-  int dispatches = 0;
-  size_t cutWalks = 0;
+  const Quality& quality;
+  Tile window;
 };
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -65,7 +58,7 @@ struct Split {
 
 void bindRayInputs(const ResolveInputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
-  inputs.surfaces.bind(STORAGE_OLD_HEADS, STORAGE_OLD_LINKS, STORAGE_OLD_PAYLOADS);
+  inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   inputs.gbuffer.surface0.bind(TEXTURE_SURFACE_0);
   inputs.gbuffer.surface1.bind(TEXTURE_SURFACE_1);
@@ -73,8 +66,8 @@ void bindRayInputs(const ResolveInputs& inputs) {
 
 shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   shared::ResolveParams params{};
-  const double step = inputs.volumes.empty() ? 1.0 : inputs.quality.stepVoxels * inputs.volumes.voxelSize();
-  params.march = {static_cast<float>(step), static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
+  params.march = {static_cast<float>(inputs.quality.stepVoxels),
+                  static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
   params.options = {1, inputs.quality.bilinearSmokeShadows ? 1 : 0, inputs.lights.directionalLights(), 0};
   glm::vec2 positions[MAX_SAMPLES] = {};
   std::copy(inputs.gbuffer.samplePositions.begin(), inputs.gbuffer.samplePositions.end(), positions);
@@ -84,7 +77,7 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
 }
 
 Split splitPixels(gl::Device& device, const ResolveInputs& inputs) {
-  const size_t pixels = static_cast<size_t>(inputs.width) * static_cast<size_t>(inputs.height);
+  const size_t pixels = inputs.window.pixels();
   Split split;
   if (inputs.gbuffer.samplePositions.size() == 1) {
     split.groups = gl::Buffer(device, "pixel groups", pixels * sizeof(uint32_t));
@@ -101,8 +94,8 @@ Split splitPixels(gl::Device& device, const ResolveInputs& inputs) {
     bindRayInputs(inputs);
     split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
     counters.bindStorage(STORAGE_COUNTERS);
-    gl::dispatch(program, {gl::groupsFor(static_cast<size_t>(inputs.width), 8),
-                           gl::groupsFor(static_cast<size_t>(inputs.height), 8), 1});
+    gl::dispatch(program, {gl::groupsFor(static_cast<size_t>(inputs.window.width), 8),
+                           gl::groupsFor(static_cast<size_t>(inputs.window.height), 8), 1});
     gl::storageBarrier();
     split.count = counters.readValue<shared::ResolveCounters>().groups;
     if (split.count <= capacity) return split;
@@ -110,36 +103,39 @@ Split splitPixels(gl::Device& device, const ResolveInputs& inputs) {
   }
 }
 
-// Rows from the top, as images have them; the GPU's start at the bottom. A split pixel is the mean of its
-// samples.
-image::Image readRadiance(const gl::Buffer& rays, const Split& split, size_t rayCount,
-                          const ResolveInputs& inputs) {
+// Rows of images count from the top, the GPU's from the bottom. A split pixel is the mean of its samples.
+void readRadiance(const gl::Buffer& rays, const Split& split, size_t rayCount, const ResolveInputs& inputs,
+                  image::Image& image) {
+  const Tile& window = inputs.window;
   const auto states = rays.readValues<shared::RayState>(rayCount);
-  const size_t pixels = static_cast<size_t>(inputs.width) * static_cast<size_t>(inputs.height);
-  const auto groups = split.groups.readValues<uint32_t>(pixels);
+  const auto groups = split.groups.readValues<uint32_t>(window.pixels());
   const size_t further = inputs.gbuffer.samplePositions.size() - 1;
-  image::Image image(inputs.width, inputs.height, 3);
-  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+  const auto width = static_cast<size_t>(window.width);
+  for (size_t pixel = 0; pixel < window.pixels(); ++pixel) {
     glm::vec3 sum(states[pixel].radianceR, states[pixel].radianceG, states[pixel].radianceB);
     if (groups[pixel] != 0) {
-      const size_t firstRay = pixels + (groups[pixel] - 1) * further;
+      const size_t firstRay = window.pixels() + (groups[pixel] - 1) * further;
       for (size_t ray = firstRay; ray < firstRay + further; ++ray)
         sum += glm::vec3(states[ray].radianceR, states[ray].radianceG, states[ray].radianceB);
       sum /= static_cast<float>(further + 1);
     }
-    const auto width = static_cast<size_t>(inputs.width);
-    float* target =
-        image.pixel(static_cast<int>(pixel % width), inputs.height - 1 - static_cast<int>(pixel / width));
-    std::copy_n(&sum.x, 3, target);
+    const int x = window.x + static_cast<int>(pixel % width);
+    const int y = window.y + static_cast<int>(pixel / width);
+    std::copy_n(&sum.x, 3, image.pixel(x, image.height - 1 - y));
   }
-  return image;
 }
 
-ResolveOutputs resolve(gl::Device& device, const ResolveInputs& inputs) {
+// That fit one buffer. The lists of as many empty pixels do, too.
+size_t mostRays(const gl::Device& device) {
+  return static_cast<size_t>(device.limits().storageBlockBytes) / sizeof(shared::RayState);
+}
+
+// Lights the window's pixels into the frame; false when their rays do not fit one buffer.
+bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const Split split = splitPixels(device, inputs);
   const size_t samples = inputs.gbuffer.samplePositions.size();
-  const size_t pixels = static_cast<size_t>(inputs.width) * static_cast<size_t>(inputs.height);
-  const size_t rayCount = pixels + split.count * (samples - 1);
+  const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
+  if (rayCount > mostRays(device)) return false;
   const gl::Program& program =
       device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.volumes, inputs.geometry, samples));
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
@@ -148,11 +144,10 @@ ResolveOutputs resolve(gl::Device& device, const ResolveInputs& inputs) {
   shared::ResolveParams params = resolveParams(inputs);
   params.options.w = static_cast<int>(rayCount);
 
-  ResolveOutputs outputs;
-  outputs.splitPixels = split.count;
+  int dispatches = 0;
   shared::ResolveCounters counted{};
   do {
-    base::check(outputs.dispatches < maxResolveDispatches, "the resolve ends");
+    base::check(dispatches < maxResolveDispatches, "the resolve ends");
     passBlock.writeValue(params);
     counters.clear();
     bindRayInputs(inputs);
@@ -166,13 +161,104 @@ ResolveOutputs resolve(gl::Device& device, const ResolveInputs& inputs) {
     gl::dispatchLinear(program, rayCount);
     gl::storageBarrier();
     counted = counters.readValue<shared::ResolveCounters>();
-    outputs.cutWalks += counted.boundHit;
-    ++outputs.dispatches;
+    frame.statistics.cutWalks += counted.boundHit;
+    ++dispatches;
     params.options.x = 0;
   } while (counted.unfinished > 0);
-  outputs.radiance = readRadiance(rays, split, rayCount, inputs);
-  return outputs;
+  frame.statistics.splitPixels += split.count;
+  frame.statistics.resolveDispatches += dispatches;
+  readRadiance(rays, split, rayCount, inputs, frame.radiance);
+  return true;
 }
+
+// What all tiles of a frame are drawn from.
+struct TileInputs {
+  const std::vector<lights::Light>& lights;
+  const deepshadow::Maps& shadows;
+  const volumes::VolumesGpu& volumes;
+  const GeometryGpu& geometry;
+  const Quality& quality;
+  shared::ViewParams view;  // of the whole image
+  int width = 0;
+  int height = 0;
+};
+
+// Draws a frame tile by tile.
+class TilePainter {
+ public:
+  TilePainter(gl::Device& device, const TileInputs& inputs, size_t windowPixels, Frame& frame)
+      : device_(device),
+        inputs_(inputs),
+        faces_(shadowFacesOf(inputs.shadows)),
+        windowPixels_(std::min(windowPixels, mostRays(device))),
+        view_(device, "camera view", sizeof(shared::ViewParams)),
+        frame_(frame) {}
+
+  void draw(const Tile& tile) {
+    useView(tile, tile);
+    const GBuffer gbuffer = [&] {
+      const Profiler::Scope time(device_.profiler(), "opaque G-buffer");
+      const int samples =
+          std::clamp(inputs_.quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
+      return drawGBuffer(device_, {inputs_.geometry, view_, inputs_.width, inputs_.height, samples, tile});
+    }();
+    drawWindow(gbuffer, tile);
+    ++frame_.statistics.tiles;
+  }
+
+ private:
+  // A window that does not fit is drawn as two. Those that follow begin as small as that.
+  void drawWindow(const GBuffer& gbuffer, const Tile& window) {
+    if (window.pixels() <= windowPixels_) {
+      if (tryDrawWindow(gbuffer, window)) return;
+      windowPixels_ = window.pixels() / 2;
+    }
+    for (const Tile& half : halves(window)) drawWindow(gbuffer, half);
+  }
+
+  // False when the lists or rays are over the device's limits; throws Memory where a single pixel's are.
+  bool tryDrawWindow(const GBuffer& gbuffer, const Tile& window) {
+    const bool smallest = window.pixels() == 1;
+    useView(gbuffer.tile, window);
+    const auto lightLists = [&] {
+      const Profiler::Scope time(device_.profiler(), "light lists");
+      const lights::LightListInputs of{inputs_.lights, faces_,         view_,
+                                       inputs_.width,  inputs_.height, window.corners()};
+      return smallest ? std::optional(lights::LightLists(device_, of))
+                      : lights::LightLists::tryBuild(device_, of);
+    }();
+    if (!lightLists) return false;
+    const auto surfaces = [&] {
+      const Profiler::Scope time(device_.profiler(), "surface lists");
+      const SurfaceListInputs of{inputs_.geometry, view_, gbuffer, inputs_.width, inputs_.height, window};
+      return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
+    }();
+    if (!surfaces) return false;
+    const Profiler::Scope time(device_.profiler(), "resolve");
+    if (!resolve(device_,
+                 {view_, gbuffer, surfaces->lists, *lightLists, inputs_.shadows, inputs_.volumes,
+                  inputs_.geometry, inputs_.quality, window},
+                 frame_))
+      return false;
+    frame_.statistics.lights += lightLists->statistics();
+    frame_.statistics.surfaces += surfaces->statistics;
+    return true;
+  }
+
+  void useView(const Tile& tile, const Tile& window) {
+    shared::ViewParams view = inputs_.view;
+    view.tile = tile.corners();
+    view.window = window.corners();
+    view_.writeValue(view);
+  }
+
+  gl::Device& device_;
+  const TileInputs& inputs_;
+  const std::vector<lights::ShadowFaces> faces_;
+  size_t windowPixels_;  // that are tried at a time
+  gl::Buffer view_;
+  Frame& frame_;
+};
 
 }  // namespace
 
@@ -186,61 +272,40 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
                  resolveDefines(volumes_, geometry_, static_cast<size_t>(samples)));
 }
 
-Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height,
-                                  const Quality& quality) {
-  Frame frame;
-  gl::Buffer view(device_, "camera view", sizeof(shared::ViewParams));
-  view.writeValue(scene::cameraView(camera, width, height));
-
-  const int samples = std::clamp(quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
-  const GBuffer gbuffer = [&] {
-    const Profiler::Scope time(device_.profiler(), "opaque G-buffer");
-    return drawGBuffer(device_, {geometry_, view, width, height, samples});
-  }();
-
-  const deepshadow::Maps shadows = [&] {
-    const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-    const auto receivers =
-        scene::visiblePoints(scene_, mediaBoxes_, camera, static_cast<double>(width) / height);
-    const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
-    deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
-                                .once = geometry_.hasShadowOnce()};
-    if (geometry_.has(Layer::ShadowLists))
-      casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
-    const double step = volumes_.empty() ? 1.0 : quality.stepVoxels * volumes_.voxelSize();
-    return deepshadow::Maps(device_, {.lights = scene_.lights,
-                                      .casters = casters,
-                                      .volumes = volumes_,
-                                      .receivers = receivers,
-                                      .castingPoints = castingPoints,
-                                      .resolution = quality.shadowResolution,
-                                      .stepMetres = step,
-                                      .error = quality.shadowError});
-  }();
+Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
+                                  const FrameOptions& options) {
+  const deepshadow::Maps shadows = buildShadows(camera, static_cast<double>(width) / height, quality);
+  Frame frame{.radiance = image::Image(width, height, 3)};
+  const TileInputs inputs{scene_.lights, shadows, volumes_,
+                          geometry_,     quality, scene::cameraView(camera, width, height),
+                          width,         height};
+  TilePainter painter(device_, inputs, options.windowPixels, frame);
+  for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
+    painter.draw(tile);
+    options.onTile();
+  }
   frame.statistics.shadows = shadows.lights();
-
-  const std::vector<lights::ShadowFaces> faces = shadowFacesOf(shadows);
-  const lights::LightLists lightLists = [&] {
-    const Profiler::Scope time(device_.profiler(), "light lists");
-    return lights::LightLists(device_, {scene_.lights, faces, view, width, height});
-  }();
-  frame.statistics.lights = lightLists.statistics();
-
-  const SurfaceLists surfaces = [&] {
-    const Profiler::Scope time(device_.profiler(), "surface lists");
-    return buildSurfaceLists(device_, {geometry_, view, gbuffer, width, height});
-  }();
-  frame.statistics.surfaces = surfaces.statistics;
-
-  const Profiler::Scope time(device_.profiler(), "resolve");
-  ResolveOutputs resolved = resolve(device_, {view, gbuffer, surfaces.lists, lightLists, shadows, volumes_,
-                                              geometry_, width, height, quality});
-  frame.radiance = std::move(resolved.radiance);
-  frame.statistics.splitPixels = resolved.splitPixels;
-  frame.statistics.resolveDispatches = resolved.dispatches;
-  frame.statistics.cutWalks = resolved.cutWalks + shadows.cutMarches();
+  frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = geometry_.triangles();
   return frame;
+}
+
+deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, double aspect,
+                                                   const Quality& quality) const {
+  const Profiler::Scope time(device_.profiler(), "deep shadow maps");
+  const auto receivers = scene::visiblePoints(scene_, mediaBoxes_, camera, aspect);
+  const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
+  deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
+                              .once = geometry_.hasShadowOnce()};
+  if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
+  return deepshadow::Maps(device_, {.lights = scene_.lights,
+                                    .casters = casters,
+                                    .volumes = volumes_,
+                                    .receivers = receivers,
+                                    .castingPoints = castingPoints,
+                                    .resolution = quality.shadowResolution,
+                                    .stepVoxels = quality.stepVoxels,
+                                    .error = quality.shadowError});
 }
 
 }  // namespace sfumato::pipelines

@@ -3,8 +3,8 @@
 // between them.
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +13,10 @@
 #include "gl/device.h"
 #include "image/image.h"
 #include "lights/light_lists_gpu.h"
-#include "lists/linked_lists_gpu.h"
+#include "lists/lists_gpu.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/quality.h"
+#include "pipelines/tiles.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
 #include "volumes/volumes_gpu.h"
@@ -30,6 +31,15 @@ struct FrameStatistics {
   int resolveDispatches = 0;
   size_t cutWalks = 0;  // 0, or walks that a bound cut: the picture is then wrong, and the user is told
   size_t triangles = 0;
+  size_t tiles = 0;  // drawn one after the other; figures are sums over them
+};
+
+struct FrameOptions {
+  // Most pixels of a tile, and of a window: the part of a tile that gets lists and rays at a time. Windows
+  // are halved where the device has no room. Only tests ask for less.
+  size_t tilePixels = pipelines::tilePixels;
+  size_t windowPixels = std::numeric_limits<size_t>::max();
+  std::function<void()> onTile = [] {};  // called as each is done
 };
 
 struct Frame {
@@ -42,11 +52,16 @@ class LinkedListsPipeline {
   // Uploads what the scene holds and compiles the shaders: the start-up, apart from the frame.
   LinkedListsPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media);
 
-  // Draws one frame. Bytes: 40 a sample for the G-buffer, 32 a ray, 52 a translucent fragment, and those of
-  // the light lists and deep shadow maps. Throws Memory when a buffer would be over the device's limit.
-  Frame render(const scene::Camera& camera, int width, int height, const Quality& quality);
+  // Draws one frame, tile by tile (pipelines/tiles.h): each pixel is the same bits whatever the device can
+  // hold at a time. Bytes: 12 a pixel on the host; of a tile 40 a sample for the G-buffer, 32 a ray, 52 a
+  // translucent fragment and those of its light lists; and the deep shadow maps. Throws Memory when the maps,
+  // or the lists of a single pixel, are over the device's limits.
+  Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
+               const FrameOptions& options = {});
 
  private:
+  deepshadow::Maps buildShadows(const scene::Camera& camera, double aspect, const Quality& quality) const;
+
   gl::Device& device_;
   const scene::Scene& scene_;
   std::vector<glm::dmat4> mediaBoxes_;  // world from unit cube

@@ -26,6 +26,7 @@ shared::ViewParams cameraView(const Camera& camera, int width, int height) {
   view.depthRange = {static_cast<float>(camera.nearDistance),
                      endless ? 3e38f : static_cast<float>(camera.farDistance), 0.f, 0.f};
   view.size = {width, height, 0, 0};
+  view.tile = view.window = {0, 0, width, height};
   return view;
 }
 

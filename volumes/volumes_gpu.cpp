@@ -1,8 +1,6 @@
 #include "volumes/volumes_gpu.h"
 
-#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 
 #include "base/error.h"
 #include "shaders/shared/bindings.h"
@@ -28,6 +26,7 @@ shared::VolumeData volumeData(const Medium& medium) {
   data.boxMax = glm::vec4(glm::vec3(1.0 - 0.5 / size), 0.f);
   data.albedoScale = glm::vec4(glm::vec3(medium.albedo), static_cast<float>(medium.scale));
   data.phase.x = static_cast<float>(medium.g);
+  data.phase.y = static_cast<float>(voxelSize(medium.worldFromIndex));
   return data;
 }
 
@@ -37,7 +36,6 @@ VolumesGpu::VolumesGpu(gl::Device& device, std::span<const Medium> media) {
   if (media.size() > maxMedia)
     base::fail(base::ExitCode::Memory, "{} volumes: at most {} can be rendered at once: leave some out",
                media.size(), maxMedia);
-  voxelSize_ = std::numeric_limits<double>::infinity();
   std::vector<shared::VolumeData> data;
   for (const Medium& medium : media) {
     const gl::TextureDescription description{
@@ -45,7 +43,6 @@ VolumesGpu::VolumesGpu(gl::Device& device, std::span<const Medium> media) {
     textures_.emplace_back(device, "density " + medium.grid.name, description,
                            std::as_bytes(std::span(medium.grid.values)));
     data.push_back(volumeData(medium));
-    voxelSize_ = std::min(voxelSize_, volumes::voxelSize(medium.worldFromIndex));
   }
   data_ = gl::Buffer(device, "volumes", std::span<const shared::VolumeData>(data));
 }

@@ -20,8 +20,6 @@ class VolumesGpu {
 
   size_t count() const { return textures_.size(); }
   bool empty() const { return textures_.empty(); }
-  // The shortest step between voxels of any medium, m; marching steps are told in it.
-  double voxelSize() const { return voxelSize_; }
   // VOLUME_COUNT, for programs that include shaders/volumes/media.glsl.
   gl::ShaderDefines defines() const;
   void bind() const;
@@ -29,7 +27,6 @@ class VolumesGpu {
  private:
   std::vector<gl::Texture> textures_;
   gl::Buffer data_;
-  double voxelSize_ = 0;
 };
 
 }  // namespace sfumato::volumes

@@ -33,41 +33,43 @@ void main() {
   float metresPerDepth = length(perDepth);
 
   float opaque = texelFetch(opaqueDepth, texel, 0).r;
-  MediaRay ray = mediaRay(origin, perDepth, vec2(0.0, opaque));
+  MediaRay ray = mediaRay(origin, perDepth, vec2(0.0, opaque), params.march.x);
   float start = ray.rangeOfAll.x;
   float end = ray.rangeOfAll.y;
   if (start >= end) return;
-  float wanted = ceil((end - start) * metresPerDepth / params.march.x);
-  if (wanted > MAX_STEPS) atomicAdd(counters.boundHit, 1u);
-  float steps = clamp(wanted, 1.0, MAX_STEPS);
-  float stride = (end - start) / steps;
+  float tooMany = stepsAtMost(ray) / MAX_STEPS;
+  if (tooMany > 1.0) {
+    atomicAdd(counters.boundHit, 1u);
+    for (int v = 0; v < VOLUME_COUNT; ++v) ray.stride[v] *= tooMany;
+  }
   float bound = params.march.y;
 
   float tau = 0.0;
   uint id = SMOKE_ID;
   uint hint = 0u;
-  float i = 0.0;  // steps done
-  while (i < steps && tau < DARK_TAU) {
+  float depth = start;
+  while (depth < end && tau < DARK_TAU) {
     // Empty steps cost no more than their density.
     float sigma = 0.0;
-    while (i < steps && sigma == 0.0) {
-      sigma = extinction(ray, start + (i + 0.5) * stride);
-      if (sigma == 0.0) i += 1.0;
+    while (depth < end && sigma == 0.0) {
+      float to = stepEnd(ray, depth, end);
+      sigma = extinction(ray, 0.5 * (depth + to));
+      if (sigma == 0.0) depth = to;
     }
     // A segment starts at (segmentDepth, segmentTau); any slope in [slopeMin, slopeMax] stays within the bound. It ends
     // where none is left, where the smoke ends, or where it is dark.
-    float segmentDepth = start + i * stride;
+    float segmentDepth = depth;
     float segmentTau = tau;
     float slopeMin = 0.0;
     float slopeMax = 3e38;
-    bool open = i < steps;
+    bool open = depth < end;
     while (open) {
-      sigma = i < steps ? extinction(ray, start + (i + 0.5) * stride) : 0.0;
-      float depth = start + i * stride;
-      float nextTau = tau + sigma * stride * metresPerDepth;
+      float to = depth < end ? stepEnd(ray, depth, end) : depth;
+      sigma = depth < end ? extinction(ray, 0.5 * (depth + to)) : 0.0;
+      float nextTau = tau + sigma * (to - depth) * metresPerDepth;
       // tau may be off by -log(1 + x) to -log(1 - x), x = bound / T; these lie within, and need no logarithm.
       float x = bound * exp(nextTau);
-      float run = depth + stride - segmentDepth;
+      float run = to - segmentDepth;
       float tauMin = nextTau - x / (1.0 + x);
       float tauMax = nextTau + x;
       float newMin = max(slopeMin, (tauMin - segmentTau) / run);
@@ -81,14 +83,14 @@ void main() {
         ++id;
         segmentDepth = depth;
         segmentTau += drop;
-        newMin = max(0.0, (tauMin - segmentTau) / stride);
-        newMax = (tauMax - segmentTau) / stride;
+        newMin = max(0.0, (tauMin - segmentTau) / (to - depth));
+        newMax = (tauMax - segmentTau) / (to - depth);
       }
       if (open) {
         slopeMin = newMin;
         slopeMax = max(newMin, newMax);
         tau = nextTau;
-        i += 1.0;
+        depth = to;
       }
     }
   }

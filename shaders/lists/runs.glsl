@@ -4,7 +4,7 @@
 
 layout(binding = TEXTURE_LIST_RUNS) uniform usamplerBuffer listRuns;  // ListRun
 layout(binding = TEXTURE_LIST_KEYS) uniform usamplerBuffer listKeys;  // ListKey
-layout(binding = TEXTURE_LIST_PAYLOADS) uniform usamplerBuffer listPayloads;  // words
+layout(binding = TEXTURE_LIST_PAYLOADS) uniform usamplerBuffer listPayloads;  // words, or pairs where they are even
 
 ListRun listRun(uint cell) {
   uvec2 run = texelFetch(listRuns, int(cell)).xy;
@@ -22,4 +22,8 @@ float listDepth(uint node) {
 
 uint listPayloadWord(uint word) {
   return texelFetch(listPayloads, int(word)).x;
+}
+
+uvec2 listPayloadPair(uint pair) {
+  return texelFetch(listPayloads, int(pair)).xy;
 }

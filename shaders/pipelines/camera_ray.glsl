@@ -10,6 +10,17 @@
 #define pixelUsampler usampler2D
 #endif
 
+bool hasList(ViewParams camera, ivec2 pixel) {
+  ivec2 place = pixel - camera.window.xy;
+  return all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, camera.window.zw));
+}
+
+// The number of the list of a pixel of the image.
+uint listOfPixel(ViewParams camera, ivec2 pixel) {
+  ivec2 place = pixel - camera.window.xy;
+  return uint(place.y * camera.window.z + place.x);
+}
+
 // The point at depth 1 (perspective) or the offset (orthographic) of an image position in pixels, view space.
 vec2 imagePlane(ViewParams camera, vec2 position) {
   return (position / vec2(camera.size.xy) * 2.0 - 1.0) * camera.halfExtent.xy;

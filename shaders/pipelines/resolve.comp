@@ -5,9 +5,9 @@
 // objects that do not shadow themselves.
 #include "shaders/deepshadow/lookup.glsl"
 #include "shaders/lights/light_lists.glsl"
-#include "shaders/lists/old_links.glsl"
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/resolve.h"
 #include "shaders/shared/linear_id.glsl"
 #ifdef SMOKE
@@ -28,9 +28,6 @@ layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
 };
 layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   ResolveCounters counters;
-};
-layout(std430, binding = STORAGE_OLD_PAYLOADS) readonly buffer SurfaceNodes {
-  PackedSurface surfaceNodes[];
 };
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
@@ -68,11 +65,13 @@ vec3 shadeSurface(Surface surface, PixelRay ray, float depth) {
     sum += reflectedFrom(light, surface, p, ray.towardsViewer);
     work += 16u;
   }
+  ListRun run = lightRun(ray.cell);
   uint walked = 0u;
-  uint node = lightCellHeads[ray.cell];
-  while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= depth) {
-    if (depth <= lightCellBacks[node]) sum += reflectedFrom(lightCellLinks[node].id, surface, p, ray.towardsViewer);
-    node = lightCellLinks[node].next;
+  bool reached = true;
+  while (reached && walked < min(run.count, LIGHT_WALK_LIMIT)) {
+    ListedLight listed = listedLight(run.first + walked);
+    reached = listed.front <= depth;
+    if (reached && depth <= listed.back) sum += reflectedFrom(listed.light, surface, p, ray.towardsViewer);
     ++walked;
     work += 16u;
   }
@@ -154,11 +153,13 @@ vec3 scattered(Steps steps, PixelRay ray) {
   vec3 sum = vec3(0.0);
   for (uint light = 0u; light < uint(params.options.z); ++light) sum += scatteredFrom(light, steps, ray, 0.0, 3e38);
   float farthest = steps.depth[steps.count - 1];
+  ListRun run = lightRun(ray.cell);
   uint walked = 0u;
-  uint node = lightCellHeads[ray.cell];
-  while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= farthest) {
-    sum += scatteredFrom(lightCellLinks[node].id, steps, ray, lightCellLinks[node].depth, lightCellBacks[node]);
-    node = lightCellLinks[node].next;
+  bool reached = true;
+  while (reached && walked < min(run.count, LIGHT_WALK_LIMIT)) {
+    ListedLight listed = listedLight(run.first + walked);
+    reached = listed.front <= farthest;
+    if (reached) sum += scatteredFrom(listed.light, steps, ray, listed.front, listed.back);
     ++walked;
   }
   if (walked == LIGHT_WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
@@ -166,24 +167,15 @@ vec3 scattered(Steps steps, PixelRay ray) {
 }
 #endif
 
-// Where the step that begins at `depth` ends. Steps stand at multiples of the stride from where the ray enters the media
-// and are cut at `limit` (a surface), so that adding a pane does not move them.
-float nextStep(float depth, float entry, float stride, float limit) {
-  float index = floor((depth - entry) / stride + 1e-3);
-  float to = min(entry + (index + 1.0) * stride, limit);
-  if (to <= depth) to = min(depth + stride, limit);
-  return to > depth ? to : limit;  // a stride below the rounding of the depth
-}
-
 // Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
 struct RayPlace {
-  ivec2 pixel;
+  ivec2 pixel;  // of the image
   int number;  // of the sample
   bool split;
 };
 
 RayPlace rayPlace(uint ray) {
-  uint pixels = uint(view.size.x * view.size.y);
+  uint pixels = uint(view.window.z * view.window.w);
   uint pixel = ray;
   int number = 0;
   bool split = false;
@@ -194,7 +186,8 @@ RayPlace rayPlace(uint ray) {
     number = 1 + int((ray - pixels) % uint(SAMPLES - 1));
     split = true;
   }
-  return RayPlace(ivec2(int(pixel) % view.size.x, int(pixel) / view.size.x), number, split);
+  ivec2 place = ivec2(int(pixel) % view.window.z, int(pixel) / view.window.z);
+  return RayPlace(view.window.xy + place, number, split);
 }
 
 void main() {
@@ -204,15 +197,17 @@ void main() {
   float depth = first ? view.depthRange.x : rays[number].depth;
   if (depth >= FINISHED) return;
   RayPlace place = rayPlace(number);
-  uint node = first ? listHeads[place.pixel.y * view.size.x + place.pixel.x] : rays[number].node;
+  ListRun surfaces = listRun(listOfPixel(view, place.pixel));
+  uint passed = first ? 0u : rays[number].surfaces;
   vec3 radiance = first ? vec3(0.0) : vec3(rays[number].radianceR, rays[number].radianceG, rays[number].radianceB);
   vec3 throughput = first ? vec3(1.0) : vec3(rays[number].throughputR, rays[number].throughputG, rays[number].throughputB);
 
   // Surfaces are told at the pixel's centre; a sample's ray meets their plane elsewhere.
   vec2 centre = imagePlane(view, vec2(place.pixel) + 0.5);
   vec2 plane = place.split ? imagePlane(view, vec2(place.pixel) + samplePosition(params, place.number)) : centre;
-  float opaque = texelFetch(opaqueDepth, place.pixel, place.number).r;
-  uvec4 opaqueWords = texelFetch(opaqueSurface0, place.pixel, place.number);
+  ivec2 texel = place.pixel - view.tile.xy;
+  float opaque = texelFetch(opaqueDepth, texel, place.number).r;
+  uvec4 opaqueWords = texelFetch(opaqueSurface0, texel, place.number);
   if (place.split && opaque < NOTHING_SEEN) {
     vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(opaqueWords.y));
     opaque = depthOnPlane(view, normal, centre, opaque, plane);
@@ -224,23 +219,22 @@ void main() {
   ray.origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
   ray.perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
   ray.towardsViewer = -normalize(ray.perDepth);
-  ray.cell = lightCell(place.pixel, view.size.x);
+  ray.cell = lightCell(place.pixel, view.window);
 
 #ifdef SMOKE
   float metresPerDepth = length(ray.perDepth);
-  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd));
-  float stride = params.march.x / metresPerDepth;
+  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
 #endif
 
   bool walking = true;
   while (walking && work < uint(RESOLVE_WORK_LIMIT)) {
     ++work;
     float nextSurface = rayEnd;
-    if (node != 0u) {
+    if (passed < surfaces.count) {
       // Nodes stand before the farthest sample's opaque depth, not before that of each.
-      float nodeDepth = listLinks[node].depth;
+      float nodeDepth = listDepth(surfaces.first + passed);
       if (nodeDepth < rayEnd) nextSurface = nodeDepth;
-      else node = 0u;
+      else passed = surfaces.count;
     }
     bool atSurface = true;
 #ifdef SMOKE
@@ -251,7 +245,7 @@ void main() {
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
     while (depth < limit && steps.count < STEPS && work < uint(RESOLVE_WORK_LIMIT)) {
       ++work;
-      float to = nextStep(depth, media.rangeOfAll.x, stride, limit);
+      float to = stepEnd(media, depth, limit);
       float middle = 0.5 * (depth + to);
       float scattered[VOLUME_COUNT];
       float sigmaT = 0.0;
@@ -274,17 +268,17 @@ void main() {
     if (steps.count > 0) radiance += scattered(steps, ray);
     atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
 #endif
-    if (atSurface && node != 0u) {
-      PackedSurface stored = surfaceNodes[node];
+    if (atSurface && passed < surfaces.count) {
+      PackedSurface stored = listedSurface(surfaces.first + passed);
       if (!place.split || (stored.coverageObject >> place.number & 1u) != 0u) {
         radiance += throughput * shadeSurface(unpackSurface(stored), ray, nextSurface);
         throughput *= surfacePass(stored);
       }
       depth = max(depth, nextSurface);
-      node = listLinks[node].next;
+      ++passed;
     } else if (atSurface) {
       if (opaque < view.depthRange.y) {
-        uvec4 more = texelFetch(opaqueSurface1, place.pixel, place.number);
+        uvec4 more = texelFetch(opaqueSurface1, texel, place.number);
         PackedSurface stored = PackedSurface(opaqueWords.x, opaqueWords.y, opaqueWords.z, opaqueWords.w, more.x, more.y,
                                              more.z, more.w, 0u, more.w & 0xffff0000u);
         radiance += throughput * shadeSurface(unpackSurface(stored), ray, opaque);
@@ -295,5 +289,5 @@ void main() {
   }
   if (walking) atomicAdd(counters.unfinished, 1u);
   rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
-                          throughput.b, node);
+                          throughput.b, passed);
 }

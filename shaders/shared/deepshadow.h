@@ -35,7 +35,7 @@ struct ShadowNode {
 };
 
 struct ShadowPassParams {
-  vec4 march;         // x: step of the march through smoke, m; y: bound of the error of the transmittance
+  vec4 march;         // x: step of the march through smoke, voxels; y: bound of the error of the transmittance
   ivec4 range;  // of the texels that are built: x: number of their first knot, y: how many
 };
 

@@ -13,7 +13,8 @@ struct LightData {
 
 // Of the passes that build and read the light lists.
 struct LightPassParams {
-  ivec4 cells;  // x, y: cells across and down; z: pixels a cell's side; w: first light of the draw
+  ivec4 cells;   // x, y: cells across and down; z: pixels a cell's side; w: first light of the draw
+  ivec4 window;  // x, y: the first cell that has a list; z: how many of a row have one
 };
 
 SHARED_END

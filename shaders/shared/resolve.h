@@ -16,11 +16,11 @@ struct RayState {
   float throughputR;
   float throughputG;
   float throughputB;
-  uint node;        // the next surface, 0: none left but the opaque one
+  uint surfaces;    // of its list that it has passed
 };
 
 struct ResolveParams {
-  vec4 march;      // x: step, m; y: throughput below which the rest is not looked at
+  vec4 march;      // x: step, voxels; y: throughput below which the rest is not looked at
   ivec4 options;   // x: 1 when this is the first dispatch; y: 1 when smoke looks shadows up bilinearly;
                    // z: directional lights; w: rays
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2

@@ -12,6 +12,9 @@ struct ViewParams {
   vec4 depthRange;   // x: near, y: far (3e38 for none)
   ivec4 size;        // x, y: width, height in pixels or texels; z: what to add for their number in the lists or
               // runs that are written; w: first row that a compute pass works on
+  // Of the camera, whose image may be drawn in parts; pixels, rows from the bottom.
+  ivec4 tile;    // x, y: the one at the G-buffer's lower left; z, w: size of the G-buffer
+  ivec4 window;  // x, y, width, height: those that have lists, in this order; they lie in the tile
 };
 
 SHARED_END

@@ -8,7 +8,7 @@ struct VolumeData {
   vec4 boxMin;            // of what may be denser than 0, in texture coordinates
   vec4 boxMax;
   vec4 albedoScale;       // rgb: albedo; w: sigma_t per unit of density, 1/m
-  vec4 phase;             // x: Henyey-Greenstein g
+  vec4 phase;             // x: Henyey-Greenstein g; y: shortest step between voxels, m
 };
 
 SHARED_END

@@ -13,10 +13,11 @@ struct MediaRay {
   vec3 start[VOLUME_COUNT];
   vec3 perDepth[VOLUME_COUNT];
   vec2 range[VOLUME_COUNT];  // of depth, inside the medium's box; empty when x >= y
+  float stride[VOLUME_COUNT];  // of a march through the medium, in depth
   vec2 rangeOfAll;
 };
 
-MediaRay mediaRay(vec3 origin, vec3 perDepth, vec2 depthRange) {
+MediaRay mediaRay(vec3 origin, vec3 perDepth, vec2 depthRange, float stepVoxels) {
   MediaRay ray;
   ray.rangeOfAll = vec2(3e38, -3e38);
   for (int v = 0; v < VOLUME_COUNT; ++v) {
@@ -32,9 +33,35 @@ MediaRay mediaRay(vec3 origin, vec3 perDepth, vec2 depthRange) {
     ray.start[v] = start;
     ray.perDepth[v] = rate;
     ray.range[v] = range;
+    ray.stride[v] = stepVoxels * volume.phase.y / length(perDepth);
     if (range.x < range.y) ray.rangeOfAll = vec2(min(ray.rangeOfAll.x, range.x), max(ray.rangeOfAll.y, range.y));
   }
   return ray;
+}
+
+// Where the step that begins at `depth` ends: it is as long as the finest medium there wants it, and crosses neither
+// the border of a medium nor `limit`. Steps stand at multiples of their length from where the ray enters the media, so
+// that a surface which cuts one does not move the others.
+float stepEnd(MediaRay ray, float depth, float limit) {
+  float stride = 3e38;
+  for (int v = 0; v < VOLUME_COUNT; ++v) {
+    if (ray.range[v].x < ray.range[v].y && depth < ray.range[v].y) {
+      bool inside = depth >= ray.range[v].x;
+      limit = min(limit, inside ? ray.range[v].y : ray.range[v].x);
+      if (inside) stride = min(stride, ray.stride[v]);
+    }
+  }
+  float entry = ray.rangeOfAll.x;
+  float to = entry + (floor((depth - entry) / stride + 1e-3) + 1.0) * stride;
+  if (to <= depth) to = depth + stride;
+  return to > depth ? min(to, limit) : limit;  // a stride below the rounding of the depth
+}
+
+// A bound of the steps of a march through all of the ray.
+float stepsAtMost(MediaRay ray) {
+  float stride = 3e38;
+  for (int v = 0; v < VOLUME_COUNT; ++v) stride = min(stride, ray.stride[v]);
+  return (ray.rangeOfAll.y - ray.rangeOfAll.x) / stride + float(2 * VOLUME_COUNT);
 }
 
 // Extinction of medium v at a depth along the ray, 1/m.

@@ -61,7 +61,7 @@ class MapsGpu : public tests::GpuTest {
                                .receivers = hull,
                                .castingPoints = hull,
                                .resolution = resolution,
-                               .stepMetres = media.empty() ? 1 : stepVoxels * media.voxelSize(),
+                               .stepVoxels = stepVoxels,
                                .error = error});
     statistics_ = maps.lights().front();
     EXPECT_EQ(maps.cutMarches(), 0u);
