@@ -197,7 +197,7 @@ void addLoad(CLI::App& command, StressOptions& options) {
       options.cells.emplace_back(size.width, size.height);
     }
   };
-  command.add_option_function<std::vector<std::string>>("--cells", takeCells, "Grids of cells, else 256x256")
+  command.add_option_function<std::vector<std::string>>("--cells", takeCells, "Grids of cells, else 128x128")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("WxH,...")
@@ -228,7 +228,7 @@ void addStrategies(CLI::App& command, StressOptions& options) {
       ->check(oneOf(lists::strategyNames()))
       ->group("Lists");
   addChoices(command, "--list-memory", options.listMemory,
-             "Budgets: none, 256M, or 10% of what the nodes take; else none,10%")
+             "Budgets: none, 256M, or 10% of what finished lists take; else none,10%")
       ->type_name("SIZE,...")
       ->check(budget())
       ->group("Lists");
@@ -245,7 +245,9 @@ void addStressOutput(CLI::App& command, StressOptions& options) {
       ->type_name("FOLDER")
       ->check(fileName())
       ->group("Output");
-  command.add_option("--repeat", options.repeat, "Do each run so often, for the times: 1 to 1000, else 1")
+  command
+      .add_option("--repeat", options.repeat,
+                  "Do each run so often, and keep its least times: 1 to 1000, else 1")
       ->type_name("TIMES")
       ->check(wholeBetween(1, 1000))
       ->group("Output");

@@ -68,7 +68,7 @@ struct InfoOptions {
 
 struct StressOptions {
   RenderOptions shot;  // device, command line, and, when it is a real scene that is stressed, what is seen
-  std::vector<glm::ivec2> cells = {{256, 256}};
+  std::vector<glm::ivec2> cells = {{128, 128}};
   std::vector<int> layers = {4, 16, 32};
   std::vector<std::string> distributions = {"uniform", "hot-spot", "one-cell", "hair"};
   std::vector<int> nodeBytes = {4};  // of payload, multiples of 4
@@ -77,7 +77,7 @@ struct StressOptions {
   std::vector<std::string> listMemory;  // sizes, "none", "10%"; empty: none, and 10 % of synthetic loads
   std::string onOverflow = "window";
   std::optional<glm::ivec2> lights;  // of a scene: from, to
-  int repeat = 2;      // of each run: the first one compiles shaders
+  int repeat = 1;      // of each run; the least times count
   double minutes = 0;  // 0: a sweep
   bool json = false;
   std::string report;  // folder, empty: none

@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 
 #include "app/json_text.h"
 #include "app/shot.h"
@@ -71,6 +72,14 @@ void checkReport(const StressOptions& options) {
   base::checkWritable(pageOf(options));
 }
 
+// Compiles what a run needs, so that its time holds none of that: the same on few cells, without a budget.
+void warmUp(gl::Device& device, const StressRun& run) {
+  lists::stress::Load load = *run.synthetic;
+  load.width = std::min(load.width, 64);
+  load.height = std::min(load.height, 64);
+  lists::stress::measure(device, load, {.strategy = run.options.strategy});
+}
+
 // One run, as often as it is repeated: the fastest times, the faults of all.
 void doRun(gl::Device& device, StressRun& run, int repeat) {
   for (int i = 0; i < repeat; ++i) {
@@ -99,6 +108,7 @@ void sweep(gl::Device& device, const StressOptions& options, StressResult& resul
   base::Progress progress("stress", static_cast<long>(runs.size()));
   for (StressRun& run : runs) {
     if (interrupted != 0) break;
+    warmUp(device, run);
     doRun(device, run, options.repeat);
     result.runs.push_back(std::move(run));
     progress.advance();
@@ -128,6 +138,13 @@ void tell(const StressOptions& options, const StressResult& result) {
   if (options.report.empty()) return;
   base::writeFile(pageOf(options), image::reportPage(reportOf(result)));
   base::note("wrote {}", pageOf(options).string());
+}
+
+// Each reason once.
+void warnOfRefusals(const StressResult& result) {
+  std::set<std::string> reasons;
+  for (const StressRun& run : result.runs)
+    if (!run.refused.empty() && reasons.insert(run.refused).second) base::warn("{}", run.refused);
 }
 
 // Bad runs decide; runs that their budget refused are a fault of the budget, but in a soak, which draws it.
@@ -161,8 +178,7 @@ int stress(const StressOptions& options) {
   if (!result.runs.empty() && result.refusedRuns() == result.runs.size())
     fail(ExitCode::Memory, "{}", result.runs.front().refused);
   tell(options, result);
-  for (const StressRun& run : result.runs)
-    if (!run.refused.empty() && !result.soak) base::warn("{}", run.refused);
+  if (!result.soak) warnOfRefusals(result);
   return exitCodeOf(result);
 }
 

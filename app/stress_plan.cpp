@@ -14,22 +14,33 @@ namespace {
 using lists::stress::Distribution;
 using lists::stress::Load;
 
-// What the nodes alone take at least: a depth and an id, and the payload.
-size_t demandBytes(const Load& load) {
-  return load.nodes() * (8 + load.payloadWords * 4);
+// What the finished lists take: a place and a length for each cell; depth, id and payload for each node.
+size_t listBytes(const Load& load) {
+  return load.cells() * 8 + load.nodes() * (8 + load.payloadWords * 4);
 }
 
-// Of "none", "256M" or "10%" of the load's demand.
+// Of "none", "256M" or "10%" of what the finished lists take.
 size_t budgetOf(const std::string& text, const Load& load) {
   if (text == "none") return 0;
   if (!text.ends_with('%')) return lists::bytesNamed(text, "--list-memory");
   const double percent = std::stod(text);
-  return std::max<size_t>(1, static_cast<size_t>(static_cast<double>(demandBytes(load)) * percent / 100));
+  return std::max<size_t>(1, static_cast<size_t>(static_cast<double>(listBytes(load)) * percent / 100));
 }
 
-std::vector<std::string> budgetsOf(const StressOptions& options) {
-  if (!options.listMemory.empty()) return options.listMemory;
-  return {"none", "10%"};
+// What a budget has to have room for, whatever the strategy: its longest list, several times over while it is
+// built, and what there is one of.
+bool holdsLongestList(size_t budget, const Load& load) {
+  const std::vector<uint32_t> lengths = lengthsOf(load);
+  const size_t longest = *std::max_element(lengths.begin(), lengths.end());
+  return budget > 3 * longest * (8 + load.payloadWords * 4) + 16384;
+}
+
+std::vector<size_t> budgetsOf(const StressOptions& options, const Load& load) {
+  std::vector<size_t> budgets;
+  for (const std::string& text : options.listMemory) budgets.push_back(budgetOf(text, load));
+  if (!budgets.empty()) return budgets;
+  const size_t tenth = budgetOf("10%", load);
+  return holdsLongestList(tenth, load) ? std::vector<size_t>{0, tenth} : std::vector<size_t>{0};
 }
 
 void checkSize(const Load& load) {
@@ -73,9 +84,9 @@ std::vector<StressRun> plannedRuns(const StressOptions& options) {
                           .payloadWords = static_cast<uint32_t>(nodeBytes / 4),
                           .seed = static_cast<uint32_t>(options.seed)};
           checkSize(load);
-          for (const std::string& budget : budgetsOf(options))
+          for (const size_t budget : budgetsOf(options, load))
             for (const std::string& strategy : options.lists)
-              runs.push_back(runOf(load, lists::strategyNamed(strategy), budgetOf(budget, load),
+              runs.push_back(runOf(load, lists::strategyNamed(strategy), budget,
                                    lists::onOverflowNamed(options.onOverflow)));
         }
   return runs;
@@ -90,7 +101,7 @@ StressRun drawnRun(const StressOptions& options, base::Random& random) {
             .payloadWords = static_cast<uint32_t>(oneOf(options.nodeBytes, random) / 4),
             .seed = random.next()};
   checkSize(load);
-  const size_t budget = random.next() % 2 == 0 ? budgetOf(oneOf(budgetsOf(options), random), load)
+  const size_t budget = random.next() % 2 == 0 ? oneOf(budgetsOf(options, load), random)
                                                : budgetOf(fmt::format("{}%", 5 + random.next() % 150), load);
   return runOf(load, lists::strategyNamed(oneOf(options.lists, random)), budget,
                lists::onOverflowNamed(options.onOverflow));

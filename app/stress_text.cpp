@@ -74,7 +74,7 @@ Row rowOf(const StressRun& run) {
        {std::to_string(s.demand), std::to_string(s.stored), std::to_string(run.findings.lost),
         std::to_string(run.findings.faults()), std::to_string(s.nodeBytes), mebibytes(s.predictedBytes),
         mebibytes(s.bytes), std::to_string(s.windows), std::to_string(s.builds),
-        fmt::format("{}/{}", s.p99Spins, s.maxSpins), std::to_string(s.longest),
+        s.maxSpins == 0 ? "-" : fmt::format("{}/{}", s.p99Spins, s.maxSpins), std::to_string(s.longest),
         rate(s.stored, run.buildSeconds), rate(s.stored, run.resolveSeconds),
         rate(run.lookups, run.lookupSeconds)})
     row.push_back(cell);
@@ -243,7 +243,7 @@ std::string tableOf(const StressResult& result) {
     for (const StressRun& run : result.runs) rows.push_back(rowOf(run));
     text += aligned(rows, 2) + units;
   }
-  text += "\n" + verdictOf(result) + "\n";
+  text += fmt::format("\n{}\n", verdictOf(result));
   for (const StressRun& run : result.runs)
     if (!run.good()) text += fmt::format("bad: {}: {}\n", describe(run), run.findings.fault);
   return text;
