@@ -90,6 +90,7 @@ Plot sideBySide(const Runs& largest) {
             .caption = "Time to build and resolve, a node: " + setting(*largest.front()) + ", no budget.",
             .kind = Plot::Kind::Bars,
             .yTitle = "ns a node",
+            .logarithmicY = true,
             .categories = distinct<std::string>(largest, loadOf)};
   for (const std::string& strategy : distinct<std::string>(largest, strategyOf)) {
     Series series{.name = strategy};
@@ -136,7 +137,8 @@ Plot costAgainstSize(const Runs& plain, const std::string& load) {
             .kind = Plot::Kind::Lines,
             .xTitle = scene ? "lights" : "layers",
             .yTitle = "ns a node",
-            .logarithmicX = true};
+            .logarithmicX = true,
+            .logarithmicY = true};
   for (const std::string& strategy : distinct<std::string>(plain, strategyOf)) {
     Series series{.name = strategy};
     for (const StressRun* run : plain)

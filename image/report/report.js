@@ -105,7 +105,10 @@ document.querySelectorAll("figure canvas").forEach((canvas, i) => {
 for (const table of document.querySelectorAll("table")) {
   const body = table.tBodies[0];
   const heads = [...table.tHead.rows[0].cells];
-  const numberOf = (row, column) => parseFloat(row.cells[column].textContent.replaceAll(",", ""));
+  const numberOf = (row, column) => {
+    const text = row.cells[column].textContent;
+    return text === "-" ? -Infinity : parseFloat(text);
+  };
   heads.forEach((head, column) => {
     const words = [...body.rows].some((row) => Number.isNaN(numberOf(row, column)));
     if (words) for (const row of table.rows) row.cells[column].classList.add("text");

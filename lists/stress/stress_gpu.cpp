@@ -53,6 +53,8 @@ class Measurement {
       measured.statistics = lists_.buildWindows(
           device_, [&](const Pass& pass) { draw(pass); }, [&](const Window& window) { consume(window); });
     }
+    // Counted in powers of 2, so that it may be above the most.
+    measured.statistics.p99Spins = std::min(measured.statistics.p99Spins, measured.statistics.maxSpins);
     measured.findings = verification_.findings();
     measured.findings.overwritten = before_.changedWords() + after_.changedWords();
     measured.lookups = load_.cells() * lookupsPerCell;
@@ -72,11 +74,12 @@ class Measurement {
     return milliseconds / 1000;
   }
 
-  void useParams(const Window& window, size_t nodes) {
+  void useParams(const Window& window, size_t nodes, bool cut) {
     params_.writeValue(
-        shared::StressParams{.load = {load_.width, load_.height, static_cast<int>(load_.seed), 0},
+        shared::StressParams{.load = {load_.width, load_.height, static_cast<int>(load_.seed),
+                                      static_cast<int>(load_.distribution)},
                              .window = {static_cast<int>(window.firstCell), static_cast<int>(window.cells),
-                                        static_cast<int>(nodes), 0}});
+                                        static_cast<int>(nodes), cut}});
     params_.bindUniform(UNIFORM_PASS);
   }
 
@@ -85,10 +88,9 @@ class Measurement {
     const bool cut = load_.distribution == Distribution::Uniform;
     const size_t nodes = cut ? pass.window.cells * static_cast<size_t>(load_.layers) : load_.nodes();
     gl::ShaderDefines defines = pass.defines;
-    defines.emplace_back("DISTRIBUTION", std::to_string(static_cast<int>(load_.distribution)));
     defines.emplace_back("LOAD_WORDS", std::to_string(load_.payloadWords));
     const gl::Program& program = device_.program({"lists/stress/insert.comp"}, defines);
-    useParams(pass.window, nodes);
+    useParams(pass.window, nodes, cut);
     const Profiler::Scope time(device_.profiler(), "stress draw");
     gl::dispatchLinear(program, nodes);
   }
@@ -96,7 +98,7 @@ class Measurement {
   // The sum of each cell's lookups.
   std::vector<uint32_t> lookUp(const Window& window) {
     gl::Buffer sums(device_, "stress lookups", window.cells * sizeof(uint32_t));
-    useParams(window, 0);
+    useParams(window, 0, false);
     const gl::Program& program =
         device_.program({"lists/stress/lookup.comp"}, {{"LOOKUPS", std::to_string(lookupsPerCell) + "u"}});
     {

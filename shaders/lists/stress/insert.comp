@@ -12,14 +12,13 @@ struct StressPayload {
 void main() {
   uint index = linearId();
   if (index >= uint(stressParams.window.z)) return;
-#if DISTRIBUTION == 0
-  // Layer after layer of the window's cells.
-  uint cells = uint(stressParams.window.y);
-  uint layer = index / cells;
-  uint number = layer * uint(stressParams.load.x * stressParams.load.y) + uint(stressParams.window.x) + (index - layer * cells);
-#else
   uint number = index;
-#endif
+  if (stressParams.window.w != 0) {
+    // Layer after layer of the window's cells.
+    uint cells = uint(stressParams.window.y);
+    uint layer = index / cells;
+    number = layer * uint(stressParams.load.x * stressParams.load.y) + uint(stressParams.window.x) + (index - layer * cells);
+  }
   uint cell;
   float depth;
   loadNode(number, cell, depth);

@@ -39,11 +39,23 @@ uint loadSpot(uint start, uint bits, uint side) {
   return (start + (bits & 0xffffu) % radius + (bits >> 16) % radius) % side;
 }
 
-// DISTRIBUTION counts as in lists/stress/load.h.
-void loadNode(uint number, out uint cell, out float depth) {
-  uint width = uint(stressParams.load.x);
-  uint height = uint(stressParams.load.y);
-#if DISTRIBUTION == 3
+// Distributions, as in lists/stress/load.h.
+const int HOT_SPOT = 1;
+const int ONE_CELL = 2;
+const int HAIR = 3;
+
+bool loadIs(int distribution) {
+  return stressParams.load.w == distribution;
+}
+
+uint hotSpotCell(uint number, uint width, uint height) {
+  if (loadDraw(number, USE_SPOT) % 2u == 0u) return loadDraw(number, USE_CELL) % (width * height);
+  uint x = loadSpot(loadDraw(0u, USE_SPOT_X), loadDraw(number, USE_SPOT_X), width);
+  uint y = loadSpot(loadDraw(0u, USE_SPOT_Y), loadDraw(number, USE_SPOT_Y), height);
+  return y * width + x;
+}
+
+void hairNode(uint number, uint width, uint height, out uint cell, out float depth) {
   uint strand = number / width;
   uint x = number - strand * width;
   uint clump = loadDraw(strand, USE_CLUMP) % max(height / 16u, 1u);
@@ -52,20 +64,17 @@ void loadNode(uint number, out uint cell, out float depth) {
   uint y = (loadDraw(clump, USE_CLUMP_ROOT) % height + climb) % height;
   cell = y * width + x;
   depth = float(loadDraw(clump, USE_CLUMP_DEPTH) % 1024u + fray % 8u + 1u) / 2048.0;
-#else
-  depth = float(loadDraw(number, USE_DEPTH) % 65536u + 1u) / 65536.0;
-#if DISTRIBUTION == 0
-  cell = number % (width * height);
-#elif DISTRIBUTION == 1
-  if (loadDraw(number, USE_SPOT) % 2u == 0u) {
-    cell = loadDraw(number, USE_CELL) % (width * height);
-  } else {
-    uint x = loadSpot(loadDraw(0u, USE_SPOT_X), loadDraw(number, USE_SPOT_X), width);
-    uint y = loadSpot(loadDraw(0u, USE_SPOT_Y), loadDraw(number, USE_SPOT_Y), height);
-    cell = y * width + x;
+}
+
+void loadNode(uint number, out uint cell, out float depth) {
+  uint width = uint(stressParams.load.x);
+  uint height = uint(stressParams.load.y);
+  if (loadIs(HAIR)) {
+    hairNode(number, width, height, cell, depth);
+    return;
   }
-#else
-  cell = loadDraw(0u, USE_CELL) % (width * height);
-#endif
-#endif
+  depth = float(loadDraw(number, USE_DEPTH) % 65536u + 1u) / 65536.0;
+  if (loadIs(HOT_SPOT)) cell = hotSpotCell(number, width, height);
+  else if (loadIs(ONE_CELL)) cell = loadDraw(0u, USE_CELL) % (width * height);
+  else cell = number % (width * height);
 }
