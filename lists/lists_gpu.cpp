@@ -105,7 +105,7 @@ size_t Lists::bytesFor(size_t cells, size_t nodes) const {
 
 size_t Lists::nodesAllowed(const gl::Device& device, size_t cells) const {
   const size_t most = mostNodes(device);
-  if (options_.budgetBytes == 0 || options_.onOverflow == OnOverflow::Grow) return most;
+  if (!limited()) return most;
   const size_t fixed = bytesFor(cells, 0);
   if (fixed >= options_.budgetBytes) return 0;
   // A cell number for every LIST_SHORT_RUN + 1 nodes, in 33rds of a byte.
@@ -479,26 +479,24 @@ ListStatistics Lists::build(gl::Device& device, const Draw& draw) {
 }
 
 ListStatistics Lists::buildWindows(gl::Device& device, const Draw& draw,
-                                   const std::function<void(const Window&)>& consume) {
-  if (options_.budgetBytes == 0 || options_.onOverflow != OnOverflow::Window) {
-    const ListStatistics statistics = build(device, draw);
-    consume({0, cells_});
-    return statistics;
+                                   const std::function<void(const Window&)>& consume, size_t mostCells) {
+  const bool wholly = options_.onOverflow == OnOverflow::Error;
+  if (limited() && !wholly) {
+    // No more than half of the budget for what every cell takes.
+    const size_t perCell = cellBytes(LIST_SCAN_BLOCK) / LIST_SCAN_BLOCK + 1;
+    mostCells = std::clamp<size_t>(options_.budgetBytes / (2 * perCell), 1, mostCells);
   }
   ListStatistics all;
-  // No more than half of the budget for what every cell takes.
-  const size_t perCell = std::max<size_t>(cellBytes(LIST_SCAN_BLOCK) / LIST_SCAN_BLOCK, 1);
-  size_t cells = std::max<size_t>(options_.budgetBytes / (2 * perCell), 1);
   for (size_t first = 0; first < cells_;) {
     ListStatistics statistics;
-    const Window window{first, std::min(cells, cells_ - first)};
-    const size_t built = buildPrefix(device, window, draw, false, countsFirst(), statistics);
-    if (built == 0) failOverBudget(device, 1);
+    const Window window{first, std::min(mostCells, cells_ - first)};
+    const size_t built = buildPrefix(device, window, draw, wholly, countsFirst(), statistics);
+    if (built == 0) failOverBudget(device, wholly ? window.cells : 1);
     all += statistics;
     consume({first, built});
     first += built;
     // What did not fit was counted in vain; a little more than what did costs little.
-    if (built < window.cells) cells = built + built / 4 + 1;
+    if (built < window.cells) mostCells = built + built / 4 + 1;
   }
   return all;
 }
@@ -506,8 +504,12 @@ ListStatistics Lists::buildWindows(gl::Device& device, const Draw& draw,
 // Whether a count pass comes before the nodes are stored: always for `count`; for linked lists when the size
 // of their pool is unknown, or must not be exceeded.
 bool Lists::countsFirst() const {
-  return !linked() || capacity_ == 0 ||
-         (options_.budgetBytes != 0 && options_.onOverflow != OnOverflow::Grow);
+  return !linked() || capacity_ == 0 || limited();
+}
+
+// Whether there is a budget to be held.
+bool Lists::limited() const {
+  return options_.budgetBytes != 0 && options_.onOverflow != OnOverflow::Grow;
 }
 
 void Lists::failOverBudget(gl::Device& device, size_t cells) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,11 +49,12 @@ class Lists {
   // fewer: fitting() says how many. Throws Memory under OnOverflow::Error.
   std::optional<ListStatistics> tryBuild(gl::Device& device, size_t cells, const Draw& draw);
   size_t fitting() const { return fitting_; }
-  // Builds all cells in windows, one where they fit at once, and calls `consume` after each with the cells
-  // that the runs are of: runs are numbered from the window's first cell. Throws Memory when one cell alone
-  // does not fit, or, under OnOverflow::Error, when all together do not.
+  // Builds all cells in windows, one where they fit at once and are no more than `mostCells`, and calls
+  // `consume` after each with the cells that the runs are of: runs are numbered from the window's first cell.
+  // Throws Memory when one cell alone does not fit, or, under OnOverflow::Error, when a window does not.
   ListStatistics buildWindows(gl::Device& device, const Draw& draw,
-                              const std::function<void(const Window&)>& consume);
+                              const std::function<void(const Window&)>& consume,
+                              size_t mostCells = std::numeric_limits<size_t>::max());
 
   // Nodes that `draw` will store in the first `cells`, by a count pass: nothing is stored.
   size_t predict(gl::Device& device, size_t cells, const Draw& draw);
@@ -101,6 +103,7 @@ class Lists {
   Counted scan(gl::Device& device, size_t cells, RunOffset offset);
   size_t cellsHolding(size_t cells, size_t nodes) const;  // of the first cells, by their scanned counts
   bool countsFirst() const;
+  bool limited() const;
   size_t buildPrefix(gl::Device& device, Window window, const Draw& draw, bool wholly, bool count,
                      ListStatistics& statistics);
   void useStrategy(Strategy strategy);
