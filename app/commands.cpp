@@ -1,5 +1,7 @@
 #include "app/commands.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <memory>
 
@@ -95,8 +97,9 @@ void addView(CLI::App& command, RenderOptions& options) {
     options.height = size.height;
   };
   command
-      .add_option_function<std::string>("--res", takeResolution,
-                                        "Image size: 1 to 16384 pixels a side, else 1280x720")
+      .add_option_function<std::string>(
+          "--res", takeResolution,
+          fmt::format("Image size: 1 to 16384 pixels a side, else {}x{}", options.width, options.height))
       ->type_name("WxH")
       ->check(resolution())
       ->group("View");
@@ -122,7 +125,9 @@ void addQuality(CLI::App& command, RenderOptions& options) {
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command.add_option(name, value, help)->group("Quality");
   };
-  add("--quality", options.quality, "draft, medium, high or reference; else medium")
+  command
+      .add_option("--quality", options.quality, "draft, medium, high or reference; else " + options.quality)
+      ->group("Quality")
       ->type_name("NAME")
       ->check(oneOf(pipelines::qualityNames()));
   add("--step", options.stepVoxels, "March through smoke in such steps: 0.01 to 100, else by --quality")

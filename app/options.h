@@ -67,7 +67,8 @@ struct InfoOptions {
 };
 
 struct StressOptions {
-  RenderOptions shot;  // device, command line, and, when it is a real scene that is stressed, what is seen
+  // Device, command line, and of a scene what is seen of it.
+  RenderOptions shot{.width = 320, .height = 180, .quality = "draft"};
   std::vector<glm::ivec2> cells = {{128, 128}};
   std::vector<int> layers = {4, 16, 32};
   std::vector<std::string> distributions = {"uniform", "hot-spot", "one-cell", "hair"};
@@ -77,8 +78,8 @@ struct StressOptions {
   std::vector<std::string> listMemory;  // sizes, "none", "10%"; empty: none, and 10 % of synthetic loads
   std::string onOverflow = "window";
   std::optional<glm::ivec2> lights;  // of a scene: from, to
-  int repeat = 1;      // of each run; the least times count
-  double minutes = 0;  // 0: a sweep
+  int repeat = 1;                    // of each run; the least times count
+  double minutes = 0;                // 0: a sweep
   bool json = false;
   std::string report;  // folder, empty: none
 };

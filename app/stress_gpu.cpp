@@ -8,6 +8,7 @@
 #include "app/json_text.h"
 #include "app/shot.h"
 #include "app/stress.h"
+#include "app/stress_scene_gpu.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
@@ -167,7 +168,10 @@ int stress(const StressOptions& options) {
                       .commandLine = options.shot.commandLine,
                       .soak = options.minutes > 0};
   listenForInterrupts();
-  if (result.soak)
+  if (isOfScene(options))
+    stressScene(
+        device, options, [] { return interrupted != 0; }, result);
+  else if (result.soak)
     soak(device, options, result);
   else
     sweep(device, options, result);

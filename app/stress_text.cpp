@@ -180,6 +180,7 @@ Json runJson(const StressRun& run) {
        {"torn", f.torn},
        {"broken", f.broken},
        {"misread", f.misread},
+       {"different", f.different},
        {"overwritten", f.overwritten},
        {"fault", f.fault},
        {"bytes_per_node", s.nodeBytes},
@@ -225,9 +226,11 @@ std::string verdictOf(const StressResult& result) {
   size_t stored = 0;
   for (const StressRun& run : result.runs) stored += run.statistics.stored;
   std::string line = fmt::format("{} runs, {} nodes: ", result.runs.size(), stored);
-  line += result.badRuns() == 0
-              ? "none lost, none twice, all sorted"
-              : fmt::format("{} runs are bad, {} nodes are lost", result.badRuns(), result.lost());
+  const bool scene = !result.runs.empty() && !result.runs.front().synthetic;
+  line +=
+      result.badRuns() == 0
+          ? (scene ? "none lost, the same picture from every strategy" : "none lost, none twice, all sorted")
+          : fmt::format("{} runs are bad, {} nodes are lost", result.badRuns(), result.lost());
   if (result.refusedRuns() > 0)
     line += fmt::format("; {} runs refused by their budget", result.refusedRuns());
   if (result.interrupted) line += "; interrupted";

@@ -181,6 +181,7 @@ struct TileInputs {
   shared::ViewParams view;  // of the whole image
   int width = 0;
   int height = 0;
+  const lists::ListOptions& lists;
 };
 
 // Draws a frame tile by tile.
@@ -222,15 +223,16 @@ class TilePainter {
     useView(gbuffer.tile, window);
     const auto lightLists = [&] {
       const Profiler::Scope time(device_.profiler(), "light lists");
-      const lights::LightListInputs of{inputs_.lights, faces_,         view_,
-                                       inputs_.width,  inputs_.height, window.corners()};
+      const lights::LightListInputs of{inputs_.lights, faces_,           view_,        inputs_.width,
+                                       inputs_.height, window.corners(), inputs_.lists};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
     if (!lightLists) return false;
     const auto surfaces = [&] {
       const Profiler::Scope time(device_.profiler(), "surface lists");
-      const SurfaceListInputs of{inputs_.geometry, view_, gbuffer, inputs_.width, inputs_.height, window};
+      const SurfaceListInputs of{inputs_.geometry, view_,  gbuffer,      inputs_.width,
+                                 inputs_.height,   window, inputs_.lists};
       return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
     }();
     if (!surfaces) return false;
@@ -274,11 +276,12 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
-  const deepshadow::Maps shadows = buildShadows(camera, static_cast<double>(width) / height, quality);
+  const deepshadow::Maps shadows =
+      buildShadows(camera, static_cast<double>(width) / height, quality, options.lists);
   Frame frame{.radiance = image::Image(width, height, 3)};
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, scene::cameraView(camera, width, height),
-                          width,         height};
+                          width,         height,  options.lists};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
@@ -291,7 +294,8 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
 }
 
 deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, double aspect,
-                                                   const Quality& quality) const {
+                                                   const Quality& quality,
+                                                   const lists::ListOptions& lists) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
   const auto receivers = scene::visiblePoints(scene_, mediaBoxes_, camera, aspect);
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
@@ -306,7 +310,8 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                                     .castingPoints = castingPoints,
                                     .resolution = quality.shadowResolution,
                                     .stepVoxels = quality.stepVoxels,
-                                    .error = quality.shadowError});
+                                    .error = quality.shadowError,
+                                    .lists = lists});
 }
 
 }  // namespace sfumato::pipelines

@@ -40,6 +40,7 @@ struct FrameOptions {
   size_t tilePixels = pipelines::tilePixels;
   size_t windowPixels = std::numeric_limits<size_t>::max();
   std::function<void()> onTile = [] {};  // called as each is done
+  lists::ListOptions lists{};            // of the camera, of lights, of a shadow map
 };
 
 struct Frame {
@@ -60,7 +61,8 @@ class LinkedListsPipeline {
                const FrameOptions& options = {});
 
  private:
-  deepshadow::Maps buildShadows(const scene::Camera& camera, double aspect, const Quality& quality) const;
+  deepshadow::Maps buildShadows(const scene::Camera& camera, double aspect, const Quality& quality,
+                                const lists::ListOptions& lists) const;
 
   gl::Device& device_;
   const scene::Scene& scene_;

@@ -15,6 +15,7 @@ Findings& Findings::operator+=(const Findings& other) {
   torn += other.torn;
   broken += other.broken;
   misread += other.misread;
+  different += other.different;
   overwritten += other.overwritten;
   if (fault.empty()) fault = other.fault;
   return *this;

@@ -249,6 +249,63 @@ TEST_F(Stress, EndsWithTheReportSoFarWhenInterrupted) {
   EXPECT_GT(result["runs"].size(), 0u);
 }
 
+// ---- real scenes -----------------------------------------------------------------------------------------
+
+// Two panes of tinted glass in front of each other, seen by a camera, and a light.
+std::string panes() {
+  GltfBuilder gltf;
+  for (const float z : {0.f, -0.5f}) {
+    const int positions = gltf.accessor<float>("VEC3", {-1, -1, z, 1, -1, z, 0, 1, z});
+    gltf.meshNode({{"attributes", {{"POSITION", positions}}}, {"material", 0}});
+  }
+  gltf.add("materials", {{"alphaMode", "BLEND"},
+                         {"doubleSided", true},
+                         {"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.5, 0.3, 0.4}}}}});
+  const int camera =
+      gltf.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}});
+  gltf.add("nodes", {{"camera", camera}, {"translation", {0, 0, 3}}});
+  gltf.light({{"type", "point"}, {"intensity", 5}})["translation"] = {0.5, 0.5, 2};
+  return gltf.text();
+}
+
+TEST_F(Stress, BuildsTheListsOfAScene) {
+  folder.write("panes.gltf", panes());
+  const Outcome outcome =
+      runProgram(folder.path(),
+                 {"stress", "panes.gltf", "--lights", "1..4", "--list-memory", "none,64K", "--lists",
+                  "spinlock,count", "--res", "64x48", "--shadow-res", "32", "--json", "--report", "page"});
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err << outcome.out;
+  const Json result = Json::parse(outcome.out);
+  ASSERT_EQ(result["runs"].size(), 3u * 2u * 2u * 3u);  // 1, 2, 4 lights; budgets; strategies; kinds of lists
+  std::map<int, size_t> lightNodes;
+  for (const Json& one : result["runs"]) {
+    EXPECT_EQ(one["lost"], 0) << one;
+    EXPECT_EQ(one["different"], 0) << one;
+    EXPECT_EQ(one["demanded"], one["stored"]) << one;
+    if (one["lists"] == "surfaces") {
+      EXPECT_EQ(one["longest"], 2) << one;
+      EXPECT_EQ(one["cells"], 64 * 48) << one;
+    }
+    if (one["lists"] == "shadows") EXPECT_GT(one["stored"], 0) << one;
+    if (one["lists"] == "lights") {
+      const auto [known, isNew] = lightNodes.try_emplace(one["lights"], one["stored"]);
+      EXPECT_EQ(known->second, one["stored"]) << one;  // of every strategy and budget
+    }
+    if (!one["budget_bytes"].is_null()) EXPECT_LE(one["peak_bytes"], one["budget_bytes"]) << one;
+  }
+  ASSERT_EQ(lightNodes.size(), 3u);
+  EXPECT_EQ(lightNodes.begin()->first, 2);  // the scene's own, and one
+  EXPECT_LT(lightNodes.at(2), lightNodes.at(5));
+}
+
+TEST_F(Stress, SaysWhatIsWrongWithAScene) {
+  folder.write("panes.gltf", panes());
+  expectErrors(folder.path(),
+               {{{"stress", "none.gltf"}, 3, "none.gltf"},
+                {{"stress", "panes.gltf", "--minutes", "1"}, 2, "--minutes: is for synthetic loads"},
+                {{"stress", "panes.gltf", "--camera", "side"}, 2, "no camera \"side\""}});
+}
+
 TEST_F(Stress, NeedsOpenGl) {
   expectError(run({}, {.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"}}), 4,
               "no usable OpenGL 4.3");
