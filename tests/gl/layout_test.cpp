@@ -64,7 +64,7 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ListLink", {sizeof(shared::ListLink), {AT(ListLink, depth), AT(ListLink, id), AT(ListLink, next)}}},
       {"ListCounters",
        {sizeof(shared::ListCounters),
-        {AT(ListCounters, demand), AT(ListCounters, overflowed), AT(ListCounters, unmerged),
+        {AT(ListCounters, demand), AT(ListCounters, overflowed),
          AT(ListCounters, maxSpins), AT(ListCounters, retries), AT(ListCounters, longest),
          AT(ListCounters, total), AT(ListCounters, unfinished), AT(ListCounters, broken),
          AT(ListCounters, unsorted)}}},
