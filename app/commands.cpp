@@ -250,18 +250,21 @@ void addStressOutput(CLI::App& command, StressOptions& options) {
       ->type_name("FOLDER")
       ->check(fileName())
       ->group("Output");
+}
+
+void addTimes(CLI::App& command, StressOptions& options) {
   command
       .add_option("--repeat", options.repeat,
                   "Do each run so often, and keep its least times: 1 to 1000, else 1")
       ->type_name("TIMES")
       ->check(wholeBetween(1, 1000))
-      ->group("Output");
+      ->group("Runs");
   command
       .add_option("--minutes", options.minutes,
                   "Soak so long instead: sizes and budgets change from run to run")
       ->type_name("COUNT")
       ->check(between(0.001, 100000))
-      ->group("Output");
+      ->group("Runs");
 }
 
 CLI::App& addCommand(CLI::App& program, const char* name, const char* help, const char* usage) {
@@ -323,6 +326,7 @@ CLI::App& addStress(CLI::App& program, StressOptions& options, Verbosity& verbos
   for (const char* name : {"--cells", "--layers", "--distribution", "--node-bytes"})
     command.get_option(name)->excludes(scene);
   addStrategies(command, options);
+  addTimes(command, options);
   command
       .add_option_function<std::string>(
           "--lights", [&options](const std::string& text) { options.lights = parseRange(text, 1, 65536); },

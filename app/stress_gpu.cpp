@@ -73,7 +73,7 @@ void checkReport(const StressOptions& options) {
   base::checkWritable(pageOf(options));
 }
 
-// Compiles what a run needs, so that its time holds none of that: the same on few cells, without a budget.
+// Compiles what a run needs, so that its times hold none of that: the same on few cells, without a budget.
 void warmUp(gl::Device& device, const StressRun& run) {
   lists::stress::Load load = *run.synthetic;
   load.width = std::min(load.width, 64);
@@ -81,17 +81,11 @@ void warmUp(gl::Device& device, const StressRun& run) {
   lists::stress::measure(device, load, {.strategy = run.options.strategy});
 }
 
-// One run, as often as it is repeated: the fastest times, the faults of all.
-void doRun(gl::Device& device, StressRun& run, int repeat) {
+// One run, as often as it is repeated: the least times, the faults of all.
+void measureRun(gl::Device& device, StressRun& run, int repeat) {
+  warmUp(device, run);
   for (int i = 0; i < repeat; ++i) {
-    lists::stress::Measured measured;
-    try {
-      measured = lists::stress::measure(device, *run.synthetic, run.options);
-    } catch (const base::Error& error) {
-      if (error.exitCode != ExitCode::Memory) throw;
-      run.refused = error.what();
-      return;
-    }
+    const lists::stress::Measured measured = lists::stress::measure(device, *run.synthetic, run.options);
     const auto keepLeast = [&](double& least, double seconds) {
       least = i == 0 ? seconds : std::min(least, seconds);
     };
@@ -104,12 +98,25 @@ void doRun(gl::Device& device, StressRun& run, int repeat) {
   }
 }
 
+// What the container says by an error is a result here.
+void doRun(gl::Device& device, StressRun& run, int repeat) {
+  try {
+    measureRun(device, run, repeat);
+  } catch (const base::Error& error) {
+    if (error.exitCode == ExitCode::Memory)
+      run.refused = error.what();
+    else if (error.exitCode == ExitCode::CheckFailed)
+      run.findings = {.lost = run.synthetic->nodes(), .fault = error.what()};
+    else
+      throw;
+  }
+}
+
 void sweep(gl::Device& device, const StressOptions& options, StressResult& result) {
   std::vector<StressRun> runs = plannedRuns(options);
   base::Progress progress("stress", static_cast<long>(runs.size()));
   for (StressRun& run : runs) {
     if (interrupted != 0) break;
-    warmUp(device, run);
     doRun(device, run, options.repeat);
     result.runs.push_back(std::move(run));
     progress.advance();

@@ -14,6 +14,9 @@ namespace {
 using lists::stress::Distribution;
 using lists::stress::Load;
 
+// What there is one of, whatever the lists hold.
+constexpr size_t smallestBudget = 16384;
+
 // What the finished lists take: a place and a length for each cell; depth, id and payload for each node.
 size_t listBytes(const Load& load) {
   return load.cells() * 8 + load.nodes() * (8 + load.payloadWords * 4);
@@ -32,7 +35,7 @@ size_t budgetOf(const std::string& text, const Load& load) {
 bool holdsLongestList(size_t budget, const Load& load) {
   const std::vector<uint32_t> lengths = lengthsOf(load);
   const size_t longest = *std::max_element(lengths.begin(), lengths.end());
-  return budget > 3 * longest * (8 + load.payloadWords * 4) + 16384;
+  return budget > 3 * longest * (8 + load.payloadWords * 4) + smallestBudget;
 }
 
 std::vector<size_t> budgetsOf(const StressOptions& options, const Load& load) {
@@ -101,8 +104,9 @@ StressRun drawnRun(const StressOptions& options, base::Random& random) {
             .payloadWords = static_cast<uint32_t>(oneOf(options.nodeBytes, random) / 4),
             .seed = random.next()};
   checkSize(load);
-  const size_t budget = random.next() % 2 == 0 ? oneOf(budgetsOf(options, load), random)
-                                               : budgetOf(fmt::format("{}%", 5 + random.next() % 150), load);
+  const size_t budget = random.next() % 2 == 0
+                            ? oneOf(budgetsOf(options, load), random)
+                            : budgetOf(fmt::format("{}%", 5 + random.next() % 150), load) + smallestBudget;
   return runOf(load, lists::strategyNamed(oneOf(options.lists, random)), budget,
                lists::onOverflowNamed(options.onOverflow));
 }

@@ -69,6 +69,9 @@ StressRun runOf(gl::Device& device, const char* name, const std::string& pass,
   run.statistics = statistics;
   run.findings.lost = statistics.demand - std::min(statistics.demand, statistics.stored);
   if (run.findings.lost > 0) run.findings.fault = fmt::format("{} nodes are in no list", run.findings.lost);
+  run.findings.rebuilt = static_cast<size_t>(statistics.distrusted);
+  if (run.findings.rebuilt > 0)
+    run.findings.fault = "the strategy lost nodes: the lists were built again by another one";
   run.buildSeconds = secondsOf(device, pass, {"count", "scatter", "link"});
   run.resolveSeconds = secondsOf(device, pass, {"gather", "sort"});
   return run;
@@ -126,8 +129,13 @@ void stressScene(gl::Device& device, const StressOptions& options, const std::fu
               fmt::format("{} pixels are others than with the first strategy", different);
         }
       } catch (const base::Error& error) {
-        if (error.exitCode != base::ExitCode::Memory) throw;
-        runs.front().refused = error.what();
+        if (error.exitCode == base::ExitCode::Memory) {
+          runs.front().refused = error.what();
+        } else if (error.exitCode == base::ExitCode::CheckFailed) {
+          runs.front().findings = {.lost = 1, .fault = error.what()};  // how many, nobody knows
+        } else {
+          throw;
+        }
       }
       for (StressRun& run : runs) {
         run.options = kind;

@@ -181,6 +181,7 @@ Json runJson(const StressRun& run) {
        {"broken", f.broken},
        {"misread", f.misread},
        {"different", f.different},
+       {"rebuilt", f.rebuilt},
        {"overwritten", f.overwritten},
        {"fault", f.fault},
        {"bytes_per_node", s.nodeBytes},

@@ -56,7 +56,10 @@ class Measurement {
     // Counted in powers of 2, so that it may be above the most.
     measured.statistics.p99Spins = std::min(measured.statistics.p99Spins, measured.statistics.maxSpins);
     measured.findings = verification_.findings();
+    measured.findings.rebuilt = static_cast<size_t>(measured.statistics.distrusted);
     measured.findings.overwritten = before_.changedWords() + after_.changedWords();
+    measured.statistics.demand = load_.nodes();  // whatever the shaders made of it
+    describeFault(measured.findings);
     measured.lookups = load_.cells() * lookupsPerCell;
     measured.buildSeconds = seconds("stress draw");
     measured.lookupSeconds = seconds("stress lookup");
@@ -66,6 +69,15 @@ class Measurement {
   }
 
  private:
+  // Of what is no fault of one cell.
+  void describeFault(Findings& findings) const {
+    if (!findings.fault.empty()) return;
+    if (findings.rebuilt > 0)
+      findings.fault = "the strategy lost nodes: the lists were built again by another one";
+    else if (findings.overwritten > 0)
+      findings.fault = fmt::format("{} words beside the lists were overwritten", findings.overwritten);
+  }
+
   // Of every pass of this name, whatever passes it was part of.
   double seconds(const std::string& name) const {
     double milliseconds = 0;

@@ -16,6 +16,7 @@ Findings& Findings::operator+=(const Findings& other) {
   broken += other.broken;
   misread += other.misread;
   different += other.different;
+  rebuilt += other.rebuilt;
   overwritten += other.overwritten;
   if (fault.empty()) fault = other.fault;
   return *this;

@@ -27,12 +27,13 @@ struct Findings {
   size_t broken = 0;       // lists that lead out of the pool
   size_t misread = 0;      // lists in which a shader's lookups found other nodes than stand there
   size_t different = 0;    // pixels of a scene that are others than with the first strategy
+  size_t rebuilt = 0;      // times that the strategy lost nodes, and another one built the lists instead
   size_t overwritten = 0;  // words of memory beside the lists that changed
   std::string fault;       // of the first cell that has one, in words; or empty
 
   // Everything with which something is wrong, but for the nodes that are lost.
   size_t faults() const {
-    return twice + foreign + unsorted + torn + broken + misread + different + overwritten;
+    return twice + foreign + unsorted + torn + broken + misread + different + rebuilt + overwritten;
   }
   bool good() const { return lost == 0 && faults() == 0; }
   // Those of another build of the same load as well.

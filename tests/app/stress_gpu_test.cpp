@@ -130,6 +130,37 @@ TEST_F(Stress, ReportsWhatWasBuiltWhereABudgetRefusesSome) {
 
 // ---- negative controls -----------------------------------------------------------------------------------
 
+// The shader that all strategies build with, broken: node 17 is left out in one of its places.
+TEST_F(Stress, SeesNodesThatTheContainerDrops) {
+  const std::string insert = shader("lists/insert.glsl");
+  const std::string unlinked = "    bool placed = listLink(cell, node, key, tries);";
+  const std::string unscattered = "  if (listWants(cell)) {\n    uvec2 key = listKey(depth, id);";
+  const std::string unlinkedNow =
+      "    bool placed = true;\n    if (id != 17u) placed = listLink(cell, node, key, tries);";
+  const std::string unscatteredNow =
+      "  if (listWants(cell) && id != 17u) {\n    uvec2 key = listKey(depth, id);";
+
+  // Without a word: the node is not even counted.
+  const std::string uncounted = "bool listWants(uint cell) {";
+  for (const Json& one : runBroken(
+           "lists/insert.glsl", replaced(insert, uncounted, uncounted + "\n  if (cell == 17u) return false;"),
+           {"--distribution", "uniform"})["runs"]) {
+    EXPECT_EQ(one["lost"], 6) << one;
+    EXPECT_EQ(one["rebuilt"], 0) << one;
+  }
+  // The container finds out, and builds with another strategy; that is a fault of the first one.
+  for (const Json& one : runBroken("lists/insert.glsl", replaced(insert, unlinked, unlinkedNow))["runs"]) {
+    EXPECT_EQ(one["lost"], 0) << one;
+    EXPECT_EQ(one["rebuilt"], one["strategy"] == "count" ? 0 : 1) << one;
+  }
+  // No strategy is left.
+  const std::string broken = replaced(replaced(insert, unlinked, unlinkedNow), unscattered, unscatteredNow);
+  for (const Json& one : runBroken("lists/insert.glsl", broken)["runs"]) {
+    EXPECT_GT(one["lost"], 0) << one;
+    EXPECT_NE(one["fault"].get<std::string>().find("every strategy loses nodes"), std::string::npos) << one;
+  }
+}
+
 TEST_F(Stress, SeesNodesThatAShaderDrops) {
   const std::string insert = shader("lists/stress/insert.comp");
   const Json result =
