@@ -28,10 +28,15 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-// JSON that ends no <script> before its time.
+// JSON that a browser takes for nothing else within a <script>.
 std::string scriptText(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) text.replace(at, 2, "<\\/");
+  std::string text;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
   return text;
 }
 
