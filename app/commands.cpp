@@ -9,6 +9,7 @@
 #include "base/version.h"
 #include "lists/strategy.h"
 #include "lists/stress/load.h"
+#include "pipelines/aovs.h"
 #include "pipelines/quality.h"
 
 namespace sfumato::app {
@@ -139,6 +140,21 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->check(wholeBetween(32, 16384));
 }
 
+void addLists(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Quality");
+  };
+  add("--lists", options.lists,
+      "Build lists in this way: spinlock, lockfree, append or count; else what suits")
+      ->type_name("NAME")
+      ->check(oneOf(lists::strategyNames()));
+  add("--list-memory", options.listMemory, "Most that the lists at one time may take, else what there is")
+      ->type_name("BYTES|64K|256M|2G");
+  add("--on-overflow", options.onOverflow, "What then: grow, window (in parts, slower) or error; else window")
+      ->type_name("NAME")
+      ->check(oneOf(lists::onOverflowNames()));
+}
+
 void addReference(CLI::App& command, RenderOptions& options) {
   CLI::Option* reference =
       command
@@ -153,7 +169,7 @@ void addReference(CLI::App& command, RenderOptions& options) {
 }
 
 void addOutput(CLI::App& command, RenderOptions& options) {
-  const auto add = [&](const char* name, auto& value, const char* help) {
+  const auto add = [&](const char* name, auto& value, const std::string& help) {
     return command.add_option(name, value, help)->group("Output");
   };
   add("-o,--output", options.outputs,
@@ -164,6 +180,13 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   add("--exposure", options.exposureStops, "Brighten the .png: -30 to 30, else 0")
       ->type_name("STOPS")
       ->check(between(-30.0, 30.0));
+  add("--aov", options.aovs,
+      fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
+                  fmt::join(pipelines::aovNames(), ", ")))
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(oneOf(pipelines::aovNames()));
   add("--stats", options.statistics, "Write times, bytes and list figures as JSON")
       ->type_name("FILE.json")
       ->check(fileName());
@@ -292,6 +315,7 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addSmoke(command, options);
   addView(command, options);
   addQuality(command, options);
+  addLists(command, options);
   addReference(command, options);
   addOutput(command, options);
   addDevice(command, options.device);

@@ -7,6 +7,7 @@
 
 #include "app/options.h"
 #include "image/image.h"
+#include "pipelines/aovs.h"
 #include "pipelines/quality.h"
 #include "scene/default_set.h"
 #include "scene/scene.h"
@@ -25,6 +26,7 @@ struct Shot {
   std::vector<volumes::Medium> media;
   scene::Camera camera;
   pipelines::Quality quality;
+  pipelines::AovSet aovs;  // that are wanted
 };
 
 // Reads everything that is drawn.
@@ -34,6 +36,7 @@ scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Med
 
 struct Drawn {
   image::Image radiance;
+  pipelines::AovImages aovs;
   std::string device;      // who drew it, for the metadata
   std::string statistics;  // JSON
 };

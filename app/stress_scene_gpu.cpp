@@ -112,14 +112,14 @@ void stressScene(gl::Device& device, const StressOptions& options, const std::fu
     std::optional<image::Image> first;
     for (const lists::ListOptions& kind : kinds) {
       if (stop()) return;
+      shot.quality.lists = kind;
       std::vector<StressRun> runs(1);
       runs.front().load = "frame";
       try {
         pipelines::Frame frame;
         for (int i = 0; i < options.repeat + 1; ++i) {  // the first one compiles shaders
           device.profiler().reset();
-          frame = pipeline.render(shot.camera, options.shot.width, options.shot.height, shot.quality,
-                                  {.lists = kind});
+          frame = pipeline.render(shot.camera, options.shot.width, options.shot.height, shot.quality);
         }
         runs = runsOf(device, frame.statistics);
         if (!first) first = frame.radiance;

@@ -98,9 +98,9 @@ size_t Lists::nodeBytes() const {
 }
 
 size_t Lists::bytesFor(size_t cells, size_t nodes) const {
-  const size_t longCells = nodes / (LIST_SHORT_RUN + 1);
+  const size_t sorted = nodes / (LIST_SHORT_RUN + 1);
   const size_t reserved = linked() ? sizeof(ListLink) + payloadBytes_ : 0;
-  return constantBytes + cellBytes(cells) + nodes * nodeBytes() + reserved + longCells * sizeof(uint32_t) +
+  return constantBytes + cellBytes(cells) + nodes * nodeBytes() + reserved + sorted * sizeof(uint32_t) +
          smallestBuffers;
 }
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "gl/program.h"
+#include "shaders/shared/aovs.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/lights.h"
@@ -41,6 +42,11 @@ const std::map<std::string, Layout>& cppLayouts() {
         {AT(ViewParams, viewFromWorld), AT(ViewParams, worldFromView), AT(ViewParams, clipFromView),
          AT(ViewParams, halfExtent), AT(ViewParams, depthRange), AT(ViewParams, size), AT(ViewParams, tile),
          AT(ViewParams, window)}}},
+      {"AovPixel",
+       {sizeof(shared::AovPixel),
+        {AT(AovPixel, depth), AT(AovPixel, normalX), AT(AovPixel, normalY), AT(AovPixel, normalZ),
+         AT(AovPixel, albedoR), AT(AovPixel, albedoG), AT(AovPixel, albedoB), AT(AovPixel, lights),
+         AT(AovPixel, fragments), AT(AovPixel, shadowNodes)}}},
       {"DrawData",
        {sizeof(shared::DrawData),
         {AT(DrawData, worldFromObject), AT(DrawData, normalFromObject), AT(DrawData, indices)}}},
