@@ -52,7 +52,10 @@ int runCheckHere(const ValidateOptions& options) {
   std::vector<Check> checks = allChecks();
   for (Check& check : faultyChecks()) checks.push_back(std::move(check));
   const Check check = select(checks, {options.runCheck}, {}).front();
-  base::printResult(line(runHere(check, {device, options.seed, scaleOf(options), options.mutant})));
+  Run again{check, options.mutant, {}};
+  if (!options.mutant.empty()) again.arguments = {"--mutant", options.mutant};
+  base::printResult(line(runHere(check, {device, options.seed, scaleOf(options), options.mutant,
+                                         commandOf(again, runOptions(options))})));
   return 0;
 }
 

@@ -41,6 +41,7 @@ std::vector<Check> allChecks() {
   add(memoryModelChecks());
   add(rasterChecks());
   add(memoryChecks());
+  add(determinismChecks());
   return all;
 }
 

@@ -45,6 +45,8 @@ struct Context {
   uint64_t seed = 1;
   Scale scale = Scale::Small;
   std::string mutant;  // one of Check::mutants, or empty: the check's own shaders as they are
+  // The command that runs this check alone once more, in a process of its own; empty where there is none.
+  std::vector<std::string> again;
 };
 
 struct Check {

@@ -25,7 +25,7 @@ Result runHere(const Check& check, const Here& here) {
   gl::DeviceOptions options = here.device;
   options.examine = true;
   gl::Device device(options);
-  Result result = guarded(check, {device, here.seed, here.scale, here.mutant});
+  Result result = guarded(check, {device, here.seed, here.scale, here.mutant, here.again});
   const gl::Reset reset = device.resetStatus();
   if (reset == gl::Reset::None) return result;
   result.verdict = Verdict::Crash;

@@ -11,6 +11,7 @@ struct Here {
   uint64_t seed = 1;
   Scale scale = Scale::Small;
   std::string mutant;
+  std::vector<std::string> again;  // Context::again
 };
 
 // Runs the check on a device of its own. Crash when the driver reset the context; Fail when it cannot compile

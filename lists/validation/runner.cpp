@@ -27,16 +27,6 @@ std::string lastLine(std::string text) {
   return start == std::string::npos ? text : text.substr(start + 1);
 }
 
-Command commandOf(const Run& run, const RunOptions& options) {
-  Command command = {options.program, "validate",
-                     "--run-check",   run.check.name,
-                     "--seed",        fmt::format("{}", options.seed),
-                     "--scale",       options.scale == Scale::Small ? "small" : "full"};
-  command.insert(command.end(), options.deviceArguments.begin(), options.deviceArguments.end());
-  command.insert(command.end(), run.arguments.begin(), run.arguments.end());
-  return command;
-}
-
 Result crash(std::string finding) {
   return {Verdict::Crash, std::move(finding), "such code ends the program on this driver", {}};
 }
@@ -62,6 +52,16 @@ Result parse(const std::string& text) {
 }
 
 }  // namespace
+
+Command commandOf(const Run& run, const RunOptions& options) {
+  Command command = {options.program, "validate",
+                     "--run-check",   run.check.name,
+                     "--seed",        fmt::format("{}", options.seed),
+                     "--scale",       options.scale == Scale::Small ? "small" : "full"};
+  command.insert(command.end(), options.deviceArguments.begin(), options.deviceArguments.end());
+  command.insert(command.end(), run.arguments.begin(), run.arguments.end());
+  return command;
+}
 
 std::string line(const Result& result) {
   json figures = json::array();

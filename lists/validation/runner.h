@@ -30,6 +30,9 @@ struct Run {
   std::vector<std::string> arguments;  // that put it there
 };
 
+// The command of its process.
+Command commandOf(const Run& run, const RunOptions& options);
+
 struct Outcome {
   Run run;
   Result result;
