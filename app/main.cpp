@@ -65,6 +65,8 @@ int run(int argc, char** argv) {
   const CLI::App& compareCommand = app::addCompare(program, compareOptions, verbosity);
   app::InfoOptions infoOptions;
   const CLI::App& infoCommand = app::addInfo(program, infoOptions, verbosity);
+  app::ValidateOptions validateOptions;
+  const CLI::App& validateCommand = app::addValidate(program, validateOptions, verbosity);
 
   try {
     program.parse(argc, argv);
@@ -82,6 +84,7 @@ int run(int argc, char** argv) {
   if (renderCommand.parsed()) return app::render(renderOptions);
   if (compareCommand.parsed()) return app::compare(compareOptions);
   if (infoCommand.parsed()) return app::info(infoOptions);
+  if (validateCommand.parsed()) return app::validate(validateOptions);
   failUsage(program, "no command");
 }
 

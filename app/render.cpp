@@ -103,6 +103,10 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
   if (options.shadowResolution) quality.shadowResolution = *options.shadowResolution;
+  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
+  if (!options.listMemory.empty())
+    quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
+  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
   return quality;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "base/error.h"
 #include "gl/commands.h"
@@ -15,9 +14,9 @@ namespace sfumato::deepshadow {
 
 namespace {
 
-// Parts of a buffer that are bound alone start at multiples of 256 bytes; texels do, as faces have whole
-// workgroups of rows, which are multiples of 8 texels.
-constexpr size_t knotAlignment = 16;
+// Parts of a buffer that are bound alone start at multiples of 256 bytes.
+constexpr size_t knotAlignment = 256 / sizeof(shared::ShadowKnot);
+constexpr size_t texelAlignment = 64;
 
 size_t alignedUp(size_t count, size_t alignment) {
   return (count + alignment - 1) / alignment * alignment;
@@ -55,6 +54,14 @@ shared::ViewParams faceView(const FaceProjection& face) {
   return view;
 }
 
+// Rows that hold some cells of a face: what a scissor lets through.
+glm::ivec4 rowsOf(const lists::Window& window, int side) {
+  const auto width = static_cast<size_t>(side);
+  const size_t first = window.firstCell / width;
+  const size_t last = (window.firstCell + window.cells - 1) / width;
+  return {0, static_cast<int>(first), side, static_cast<int>(last - first + 1)};
+}
+
 // Everything that building the maps needs and that goes with it.
 class Builder {
  public:
@@ -64,61 +71,54 @@ class Builder {
         texels_(texels),
         knots_(knots),
         opaque_(device.program({"scene/surface.vert", "deepshadow/opaque.frag"})),
-        listed_(device.program({"scene/surface.vert", "deepshadow/listed.frag"})),
-        runs_(device.program({"deepshadow/runs.comp"})),
+        writer_(device.program({"deepshadow/knots.comp"}, writerDefines(inputs))),
         viewBlock_(device, "shadow view", sizeof(shared::ViewParams)),
         passBlock_(device, "shadow pass", sizeof(shared::ShadowPassParams)),
-        counters_(device, "shadow counters", sizeof(shared::ShadowCounters)) {
-    if (!inputs.volumes.empty())
-      smoke_ = &device.program({"deepshadow/smoke.comp"}, inputs.volumes.defines());
-    if (inputs.casters.once) once_ = &device.program({"deepshadow/once.comp"});
-    counters_.clear();
-  }
+        counters_(device, "shadow counters", sizeof(shared::ShadowCounters)) {}
 
-  // Builds one light's map into its texels.
+  // Builds one light's map into its texels. Faces are built in windows, so that the lists take the same
+  // memory at any resolution.
   void build(const std::vector<FaceProjection>& faces, LightMap& map) {
     size_t firstTexel = map.firstTexel;
     for (const FaceProjection& face : faces) {
       drawOpaque(face);
-      int rows = std::max(rowStep, static_cast<int>(windowTexels) / face.side / rowStep * rowStep);
-      for (int row = 0; row < face.side;) {
-        const Window window{face, firstTexel, row, std::min(rows, face.side - row)};
-        if (buildWindow(window, map)) {
-          row += window.rows;
-        } else if (rows > rowStep) {
-          rows = std::max(rowStep, rows / 2 / rowStep * rowStep);
-        } else {
-          base::fail(
-              base::ExitCode::Memory,
-              "deep shadow map: {} rows of {} texels are more than this device holds: lower --shadow-res",
-              window.rows, face.side);
-        }
+      const auto writeWindow = [&](const lists::Window& window) {
+        writeKnots({face, firstTexel, window}, map);
+      };
+      if (inputs_.casters.listed) {
+        prepareLists(texelsOf(face));
+        map.lists += lists_->buildWindows(
+            device_, [&](const lists::Pass& pass) { store(face, pass); }, writeWindow, windowTexels);
+      } else {
+        for (size_t first = 0; first < texelsOf(face); first += windowTexels)
+          writeWindow({first, std::min(windowTexels, texelsOf(face) - first)});
       }
       firstTexel += texelsOf(face);
     }
   }
 
-  size_t cutMarches() const { return counters_.readValue<shared::ShadowCounters>().boundHit; }
+  size_t cutMarches() const { return cutMarches_; }
 
  private:
-  // Rows of a face that are built at one time, so that the lists take the same memory at any resolution.
-  struct Window {
+  // Cells of a face whose lists are built.
+  struct FaceWindow {
     const FaceProjection& face;
     size_t firstTexelOfFace;
-    int firstRow;
-    int rows;
-    size_t firstCell() const { return static_cast<size_t>(firstRow) * static_cast<size_t>(face.side); }
-    size_t cells() const { return static_cast<size_t>(rows) * static_cast<size_t>(face.side); }
+    lists::Window cells;
   };
   static constexpr size_t windowTexels = 1 << 20;
-  static constexpr int rowStep = 8;  // windows start at whole workgroups
 
-  // `numberOffset` and `firstRow`: see ViewParams::size.
-  void useFace(const FaceProjection& face, int numberOffset, int firstRow) {
-    shared::ViewParams view = faceView(face);
-    view.size.z = numberOffset;
-    view.size.w = firstRow;
-    viewBlock_.writeValue(view);
+  static gl::ShaderDefines writerDefines(const MapInputs& inputs) {
+    gl::ShaderDefines defines;
+    if (!inputs.volumes.empty()) defines = inputs.volumes.defines();
+    if (inputs.casters.listed) defines.emplace_back("SURFACES", "1");
+    if (inputs.casters.once) defines.emplace_back("SHADOW_ONCE_OBJECTS", "1");
+    if (inputs.casters.notSelf) defines.emplace_back("SHADOW_NOT_SELF_OBJECTS", "1");
+    return defines;
+  }
+
+  void useFace(const FaceProjection& face) {
+    viewBlock_.writeValue(faceView(face));
     viewBlock_.bindUniform(UNIFORM_VIEW);
   }
 
@@ -131,7 +131,7 @@ class Builder {
     const gl::Texture* colour = &depth_;
     const gl::Framebuffer target({&colour, 1}, nullptr);
     target.clearColour(0, glm::vec4(static_cast<float>(NOTHING_OPAQUE)));
-    useFace(face, 0, 0);
+    useFace(face);
     gl::setDrawState({.program = &opaque_,
                       .target = &target,
                       .viewport = {0, 0, face.side, face.side},
@@ -140,119 +140,102 @@ class Builder {
     inputs_.casters.opaque();
   }
 
-  // Lists of a window, then their runs. False when the window is too large for the device.
-  bool buildWindow(const Window& window, LightMap& map) {
-    std::optional<lists::ListStatistics> built;
-    {
-      const gl::Profiler::Scope time(device_.profiler(), "lists");
-      prepareLists(window.cells());
-      built = lists_->tryBuild(device_, window.cells(), [&] { insert(window); });
-    }
-    if (!built) return false;
-    const gl::Profiler::Scope time(device_.profiler(), "runs");
-    if (once_) keepFirstOfObjects(window);
-    const std::optional<size_t> knots = writeRuns(window);
-    if (!knots) return false;
-    map.knots += *knots;
-    map.lists += *built;
-    return true;
-  }
-
   void prepareLists(size_t cells) {
-    if (cells <= listCells_) return;
-    constexpr size_t nodesPerTexel = 2;  // a first guess; a pool that is too small grows
+    if (cells == listCells_) return;
     lists_.reset();
-    lists_.emplace(device_, "deep shadow lists", cells, sizeof(shared::ShadowNode), nodesPerTexel * cells);
+    lists_ = std::make_unique<lists::Lists>(device_, "deep shadow lists", cells, sizeof(shared::ShadowNode),
+                                            inputs_.lists);
     listCells_ = cells;
   }
 
-  // Surfaces and smoke of a window into the lists.
-  void insert(const Window& window) {
-    const int side = window.face.side;
-    useFace(window.face, -static_cast<int>(window.firstCell()), window.firstRow);
-    usePass(window);
+  // The surfaces of a face into the lists.
+  void store(const FaceProjection& face, const lists::Pass& pass) {
+    useFace(face);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
-    if (inputs_.casters.listed) {
-      const gl::Framebuffer noTarget({side, side});
-      gl::setDrawState({.program = &listed_,
-                        .target = &noTarget,
-                        .viewport = {0, 0, side, side},
-                        .scissor = glm::ivec4(0, window.firstRow, side, window.rows),
-                        .depthClamp = true});
-      inputs_.casters.listed();
-      gl::storageBarrier();
-    }
-    if (smoke_) {
+    const gl::Framebuffer noTarget({face.side, face.side});
+    gl::setDrawState(
+        {.program = &device_.program({"scene/surface.vert", "deepshadow/listed.frag"}, pass.defines),
+         .target = &noTarget,
+         .viewport = {0, 0, face.side, face.side},
+         .scissor = rowsOf(pass.window, face.side),
+         .depthClamp = true});
+    inputs_.casters.listed();
+  }
+
+  // The knots of a window, from firstKnot_ on. Texels that find no room in the pool are written again when it
+  // has grown, or behind the block that is full.
+  void writeKnots(const FaceWindow& window, LightMap& map) {
+    const gl::Profiler::Scope time(device_.profiler(), "knots");
+    size_t wanted = 1;
+    for (bool all = true; wanted > 0; all = false) {
+      const size_t room = reserveKnots(wanted);
+      counters_.clear();
+      useFace(window.face);
+      useWindow(window, all);
+      depth_.bind(TEXTURE_OPAQUE_DEPTH);
+      if (inputs_.casters.listed) lists_->bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
       inputs_.volumes.bind();
+      knots_.bindStorageRange(STORAGE_SHADOW_KNOTS, firstKnot_ * sizeof(shared::ShadowKnot),
+                              room * sizeof(shared::ShadowKnot));
       counters_.bindStorage(STORAGE_COUNTERS);
-      gl::dispatch(*smoke_, groupsOver(side, window.rows));
-    }
-  }
-
-  void keepFirstOfObjects(const Window& window) {
-    usePass(window);
-    lists_->bindForBuilding();
-    counters_.bindStorage(STORAGE_COUNTERS);
-    gl::dispatchLinear(*once_, window.cells());
-    gl::storageBarrier();
-  }
-
-  // Lists to runs of knots, from firstKnot_ on; the pool of knots grows when it is full and the pass runs
-  // again. Returns their number, or nothing when they are more than one block holds.
-  std::optional<size_t> writeRuns(const Window& window) {
-    const auto limit = static_cast<size_t>(device_.limits().storageBlockBytes);
-    const size_t offset = firstKnot_ * sizeof(shared::ShadowKnot);
-    size_t demand = 1;  // knots
-    for (;;) {
-      const size_t needed = demand * sizeof(shared::ShadowKnot);
-      if (needed > limit) return std::nullopt;
-      if (offset + needed > knots_.bytes()) growKnots(offset + needed, offset);
-      const size_t room = std::min(limit, knots_.bytes() - offset);
-      auto counters = counters_.readValue<shared::ShadowCounters>();
-      counters.knots = 0;
-      counters_.writeValue(counters);
-      usePass(window);
-      lists_->bindForBuilding();
-      texels_.bindStorageRange(STORAGE_SHADOW_TEXELS,
-                               (window.firstTexelOfFace + window.firstCell()) * sizeof(shared::ShadowTexel),
-                               window.cells() * sizeof(shared::ShadowTexel));
-      knots_.bindStorageRange(STORAGE_SHADOW_KNOTS, offset, room);
-      counters_.bindStorage(STORAGE_COUNTERS);
-      gl::dispatchLinear(runs_, window.cells());
+      gl::dispatchLinear(writer_, window.cells.cells);
       gl::storageBarrier();
-      demand = counters_.readValue<shared::ShadowCounters>().knots;
-      if (demand * sizeof(shared::ShadowKnot) <= room) {
-        firstKnot_ = alignedUp(firstKnot_ + demand, knotAlignment);
-        return demand;
-      }
+      const auto counted = counters_.readValue<shared::ShadowCounters>();
+      const size_t written = counted.knots - counted.unplaced;
+      if (written == 0 && counted.unplaced > 0 && room == mostKnots())
+        base::fail(
+            base::ExitCode::Memory,
+            "deep shadow map: one texel has more knots than the {} that this device holds in one block: "
+            "remove some surfaces",
+            room);
+      firstKnot_ = alignedUp(firstKnot_ + written, knotAlignment);
+      map.knots += written;
+      map.lists.hidden += counted.hidden;
+      cutMarches_ += counted.boundHit;
+      wanted = counted.unplaced;
     }
   }
 
-  // Room for `bytes` of knots, of which the first `used` are kept.
-  void growKnots(size_t bytes, size_t used) {
-    const size_t readable =
-        static_cast<size_t>(device_.limits().textureBufferTexels) * sizeof(shared::ShadowKnot);
-    if (bytes > readable)
+  // Of one block.
+  size_t mostKnots() const {
+    return static_cast<size_t>(device_.limits().storageBlockBytes) / sizeof(shared::ShadowKnot);
+  }
+
+  // Makes room for `wanted` knots from firstKnot_ on, or for as many as a block holds. Returns how many there
+  // may be.
+  size_t reserveKnots(size_t wanted) {
+    const size_t needed = firstKnot_ + std::min(wanted, mostKnots());
+    if (needed > knots_.bytes() / sizeof(shared::ShadowKnot)) growKnots(needed);
+    return std::min(knots_.bytes() / sizeof(shared::ShadowKnot) - firstKnot_, mostKnots());
+  }
+
+  void growKnots(size_t knots) {
+    const auto readable = static_cast<size_t>(device_.limits().textureBufferTexels);
+    if (knots > readable)
       base::fail(base::ExitCode::Memory,
                  "deep shadow maps: more than the {} MiB that this device reads at once: lower --shadow-res",
-                 readable >> 20);
+                 readable * sizeof(shared::ShadowKnot) >> 20);
     // Half as much again, so that many lights do not grow it one by one.
-    gl::Buffer grown(device_, "deep shadow knots", std::min(bytes * 3 / 2, readable),
+    gl::Buffer grown(device_, "deep shadow knots",
+                     std::min(knots * 3 / 2, readable) * sizeof(shared::ShadowKnot),
                      gl::Buffer::Whole::Never);
-    grown.copyFrom(knots_, std::min(used, knots_.bytes()));
+    grown.copyFrom(knots_, std::min(firstKnot_ * sizeof(shared::ShadowKnot), knots_.bytes()));
     knots_ = std::move(grown);
   }
 
-  void usePass(const Window& window) {
+  // The window's texels and what is done with them; `all`, or those that found no room.
+  void useWindow(const FaceWindow& window, bool all) {
+    const size_t firstTexel = window.firstTexelOfFace + window.cells.firstCell;
+    const size_t bound = firstTexel / texelAlignment * texelAlignment;
     shared::ShadowPassParams params{};
     params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(inputs_.error), 0.f, 0.f};
-    params.range = {static_cast<int>(firstKnot_), static_cast<int>(window.cells()), 0, 0};
+    params.cells = {static_cast<int>(window.cells.firstCell), static_cast<int>(window.cells.cells), 0,
+                    static_cast<int>(firstTexel - bound)};
+    params.knots = {static_cast<int>(firstKnot_), all ? 1 : 0, 0, 0};
     passBlock_.writeValue(params);
     passBlock_.bindUniform(UNIFORM_PASS);
-  }
-
-  static glm::uvec3 groupsOver(int width, int height) {
-    return {gl::groupsFor(static_cast<size_t>(width), 8), gl::groupsFor(static_cast<size_t>(height), 8), 1};
+    texels_.bindStorageRange(STORAGE_SHADOW_TEXELS, bound * sizeof(shared::ShadowTexel),
+                             (firstTexel - bound + window.cells.cells) * sizeof(shared::ShadowTexel));
   }
 
   gl::Device& device_;
@@ -260,17 +243,15 @@ class Builder {
   gl::Buffer& texels_;
   gl::Buffer& knots_;
   const gl::Program& opaque_;
-  const gl::Program& listed_;
-  const gl::Program& runs_;
-  const gl::Program* smoke_ = nullptr;  // none without media
-  const gl::Program* once_ = nullptr;   // none without objects that shadow once
+  const gl::Program& writer_;
   gl::Buffer viewBlock_;
   gl::Buffer passBlock_;
   gl::Buffer counters_;
   gl::Texture depth_;  // opaque depth of the face that is built
-  std::optional<lists::Lists> lists_;
+  std::unique_ptr<lists::Lists> lists_;
   size_t listCells_ = 0;
   size_t firstKnot_ = 0;  // of the window that is built
+  size_t cutMarches_ = 0;
 };
 
 }  // namespace
@@ -307,8 +288,10 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) {
   faces_ = gl::Buffer(device, "shadow faces", std::span<const shared::ShadowFace>(data));
   texels_ = gl::Buffer(device, "deep shadow texels", texels * sizeof(shared::ShadowTexel),
                        gl::Buffer::Whole::Never);
-  knots_ = gl::Buffer(device, "deep shadow knots", texels * sizeof(shared::ShadowKnot) / 2,
-                      gl::Buffer::Whole::Never);
+  // A first guess; the pool grows.
+  const size_t knots = inputs.volumes.empty() ? texels / 2 : texels * 5 / 4;
+  knots_ =
+      gl::Buffer(device, "deep shadow knots", knots * sizeof(shared::ShadowKnot), gl::Buffer::Whole::Never);
 
   Builder builder(device, inputs, texels_, knots_);
   for (size_t i = 0; i < lightMaps_.size(); ++i)

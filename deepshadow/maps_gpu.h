@@ -1,7 +1,7 @@
 // Deep shadow maps: for every texel of a light the transmittance as a function of depth, through coloured
 // surfaces and smoke (Lindbeck 2015, section 2.2; Lokovic and Veach 2000). Per light: opaque depth first, so
-// that nothing behind it is ever stored; then translucent surfaces and smoke into sorted lists under the spin
-// lock of each texel; then a resolve into runs of knots with the optical depth summed up.
+// that nothing behind it is ever stored; then translucent surfaces into sorted lists; then a march through
+// the smoke that joins both into knots with the optical depth summed up.
 #pragma once
 
 #include <functional>
@@ -26,6 +26,7 @@ struct Casters {
   std::function<void()> opaque;
   std::function<void()> listed;  // translucent ones, opaque ones that do not shadow themselves; empty: none
   bool once = false;             // whether there are objects that shadow once
+  bool notSelf = false;          // whether there are objects that do not shadow themselves
 };
 
 // The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
@@ -44,6 +45,7 @@ struct MapInputs {
   double error =
       1.0 /
       512;  // bound of the error that compression adds to the transmittance of smoke; 0 keeps every step
+  lists::ListOptions lists{};
 };
 
 struct LightMap {
@@ -58,7 +60,9 @@ struct LightMap {
 class Maps {
  public:
   // Builds the maps of every shadow-casting light. Costs 12 bytes a texel and 16 a knot; while it builds, 8
-  // bytes a texel of one light and 24 a node. Throws Memory when one buffer would be over the device's limit.
+  // bytes a texel of a window and 16 a translucent surface in it, more with some strategies
+  // (lists/lists_gpu.h). Throws Memory when the maps are more than the device reads, or one texel's lists are
+  // over the budget.
   Maps(gl::Device& device, const MapInputs& inputs);
 
   const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights

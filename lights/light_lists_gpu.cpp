@@ -50,7 +50,7 @@ LightLists::Cells LightLists::cellsOf(const LightListInputs& inputs) {
 
 LightLists::LightLists(gl::Device& device, const LightListInputs& inputs, const Cells& cells)
     : order_(lightOrder(inputs.lights)),
-      lists_(device, "light lists", cells.number(), sizeof(float), cells.number() * 4) {
+      lists_(device, "light lists", cells.number(), sizeof(float), inputs.lists) {
   std::vector<shared::LightData> data;
   for (const int number : order_) {
     const Light& light = inputs.lights[static_cast<size_t>(number)];
@@ -68,38 +68,41 @@ LightLists::LightLists(gl::Device& device, const LightListInputs& inputs, const 
 
 LightLists::LightLists(gl::Device& device, const LightListInputs& inputs)
     : LightLists(device, inputs, cellsOf(inputs)) {
-  statistics_ = lists_.build(device, [&] { insert(device, inputs, cellsOf(inputs)); });
+  statistics_ =
+      lists_.build(device, [&](const lists::Pass& pass) { store(device, inputs, cellsOf(inputs), pass); });
 }
 
 std::optional<LightLists> LightLists::tryBuild(gl::Device& device, const LightListInputs& inputs) {
   const Cells cells = cellsOf(inputs);
   LightLists result(device, inputs, cells);
-  const auto statistics =
-      result.lists_.tryBuild(device, cells.number(), [&] { result.insert(device, inputs, cells); });
+  const auto statistics = result.lists_.tryBuild(
+      device, cells.number(), [&](const lists::Pass& pass) { result.store(device, inputs, cells, pass); });
   if (!statistics) return std::nullopt;
   result.statistics_ = *statistics;
   return result;
 }
 
 // Fragments are those of the whole image, so that a cell's list is the same whatever the window.
-void LightLists::insert(gl::Device& device, const LightListInputs& inputs, const Cells& cells) const {
+void LightLists::store(gl::Device& device, const LightListInputs& inputs, const Cells& cells,
+                       const lists::Pass& pass) const {
   const size_t proxies = order_.size() - static_cast<size_t>(directional_);
   if (proxies == 0) return;
   const gl::Framebuffer noTarget(cells.ofImage);
   lights_.bindStorage(STORAGE_LIGHTS);
   inputs.view.bindUniform(UNIFORM_VIEW);
   passBlock_.bindUniform(UNIFORM_PASS);
-  gl::setDrawState({.program = &device.program({"lights/light_lists.vert", "lights/light_lists.frag"}),
-                    .target = &noTarget,
-                    .viewport = {0, 0, cells.ofImage.x, cells.ofImage.y},
-                    .scissor = glm::ivec4(cells.first, cells.count),
-                    .depthClamp = true});
+  gl::setDrawState(
+      {.program = &device.program({"lights/light_lists.vert", "lights/light_lists.frag"}, pass.defines),
+       .target = &noTarget,
+       .viewport = {0, 0, cells.ofImage.x, cells.ofImage.y},
+       .scissor = glm::ivec4(cells.first, cells.count),
+       .depthClamp = true});
   gl::drawGenerated(device, proxyVertices, proxies);
 }
 
 void LightLists::bind() const {
   lights_.bindStorage(STORAGE_LIGHTS);
-  lists_.bind(STORAGE_LIGHT_CELL_HEADS, STORAGE_LIGHT_CELL_LINKS, STORAGE_LIGHT_CELL_PAYLOADS);
+  lists_.bind(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, TEXTURE_LIGHT_CELL_BACKS);
 }
 
 }  // namespace sfumato::lights

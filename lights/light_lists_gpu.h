@@ -30,14 +30,15 @@ struct LightListInputs {
   int height = 0;
   // Pixels whose cells get lists: x, y from the bottom, width, height, as in the view; none: the whole image.
   std::optional<glm::ivec4> window;
+  lists::ListOptions lists{};
 };
 
 class LightLists {
  public:
   static constexpr int cellSide = 4;  // pixels; shaders/lights/light_lists.glsl has the same
 
-  // Uploads the lights and builds the lists. Costs 8 bytes a cell and 16 a node. Throws Memory when they do
-  // not fit the device.
+  // Uploads the lights and builds the lists. Costs 8 bytes a cell and 12 a node, more while some strategies
+  // build (lists/lists_gpu.h). Throws Memory when they do not fit budget or device.
   LightLists(gl::Device& device, const LightListInputs& inputs);
   // The same, but nothing where the nodes do not fit: the caller can try a smaller window.
   static std::optional<LightLists> tryBuild(gl::Device& device, const LightListInputs& inputs);
@@ -60,7 +61,8 @@ class LightLists {
   };
   static Cells cellsOf(const LightListInputs& inputs);
   LightLists(gl::Device& device, const LightListInputs& inputs, const Cells& cells);  // lists are still empty
-  void insert(gl::Device& device, const LightListInputs& inputs, const Cells& cells) const;
+  void store(gl::Device& device, const LightListInputs& inputs, const Cells& cells,
+             const lists::Pass& pass) const;
 
   std::vector<int> order_;
   int directional_ = 0;

@@ -1,71 +1,158 @@
-// The list container on the GPU: cells, each with a linked list of nodes sorted by (depth, id), built by
-// shaders that include shaders/lists/insert.glsl (strategy `spinlock`: Lindbeck 2015, section 2.2.2). Nothing
-// is lost: the demand is counted past the capacity, the pool then grows to it and the lists are built again.
+// The list container on the GPU: cells, each with a run of nodes sorted by (depth, id). Shaders that include
+// shaders/lists/insert.glsl store nodes in any order; shaders that include shaders/lists/runs.glsl read the
+// runs. How they are built (lists/strategy.h) changes no bit of them. Nothing is lost: the demand is counted
+// exactly, and cells that do not fit the budget are built in windows.
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/program.h"
+#include "gl/texture.h"
+#include "lists/sorting_network.h"
+#include "lists/strategy.h"
 #include "shaders/shared/lists.h"
 
 namespace sfumato::lists {
 
-struct ListStatistics {
+// Cells that are built together.
+struct Window {
+  size_t firstCell = 0;
   size_t cells = 0;
-  size_t demand = 0;      // nodes asked for; all of them are stored
-  size_t capacity = 0;    // nodes that the pool holds
-  size_t overflowed = 0;  // nodes that took the fallback of a bounded spin
-  size_t maxSpins = 0;    // most tries that one lock took
-  int windows = 0;        // parts that the cells were built in, one after the other
-  int builds = 0;         // as many, or more when the pool had to grow
-  size_t bytes = 0;       // heads, links and payloads: the most at one time
-
-  // The figures of two windows of the same lists together.
-  ListStatistics& operator+=(const ListStatistics& other);
 };
+
+// One issue of the draws and dispatches that store nodes.
+struct Pass {
+  gl::ShaderDefines defines;  // for every program that includes shaders/lists/insert.glsl
+  Window window;              // nodes of other cells are left out by the shaders; a scissor saves their work
+};
+// Stores the same nodes whenever it is called, in any order; nodes of one cell and depth differ in their id.
+using Draw = std::function<void(const Pass&)>;
 
 class Lists {
  public:
-  // Empty lists. `payloadBytes` a node, a multiple of 4, may be 0; `expectedNodes` is the first capacity.
-  // Costs 8 bytes a cell and 12 + payloadBytes a node. Throws Memory over the device's limit of one block.
-  Lists(gl::Device& device, std::string label, size_t cells, size_t payloadBytes, size_t expectedNodes);
+  // Empty lists of up to `cells` cells. `payloadBytes` a node, a multiple of 4, may be 0. Costs 8 bytes a
+  // cell and 8 + payloadBytes a node; strategies other than `count` 8 a cell and 12 + payloadBytes a node
+  // more while they build.
+  Lists(gl::Device& device, std::string label, size_t cells, size_t payloadBytes,
+        const ListOptions& options = {});
 
-  // Builds all lists: `draw` issues the draws and dispatches that insert; it is called again when the pool
-  // had to grow. The lists are bound (STORAGE_LIST_*) while it runs.
-  // Throws Memory, and says how much it takes, when the device cannot hold them in one buffer.
-  ListStatistics build(gl::Device& device, const std::function<void()>& draw);
-  // The same with only the first `cells`, but nothing where build() throws: the caller can try fewer cells at
-  // a time.
-  std::optional<ListStatistics> tryBuild(gl::Device& device, size_t cells, const std::function<void()>& draw);
+  // Builds the lists of all cells. Throws Memory, and says how much it takes, when they do not fit at once.
+  ListStatistics build(gl::Device& device, const Draw& draw);
+  // The same with only the first `cells`, but nothing where they do not fit, so that the caller can try
+  // fewer: fitting() says how many. Throws Memory under OnOverflow::Error.
+  std::optional<ListStatistics> tryBuild(gl::Device& device, size_t cells, const Draw& draw);
+  size_t fitting() const { return fitting_; }
+  // Builds all cells in windows, one where they fit at once and are no more than `mostCells`, and calls
+  // `consume` after each with the cells that the runs are of: runs are numbered from the window's first cell.
+  // Throws Memory when one cell alone does not fit, or, under OnOverflow::Error, when a window does not.
+  ListStatistics buildWindows(gl::Device& device, const Draw& draw,
+                              const std::function<void(const Window&)>& consume,
+                              size_t mostCells = std::numeric_limits<size_t>::max());
 
-  // Binds heads, links, payloads for readers at these storage bindings.
-  void bind(unsigned heads, unsigned links, unsigned payloads) const;
-  void bindForBuilding() const;
+  // Nodes that `draw` will store in the first `cells`, by a count pass: nothing is stored.
+  size_t predict(gl::Device& device, size_t cells, const Draw& draw);
+
+  // For shaders that include shaders/lists/runs.glsl, at these texture units.
+  void bind(unsigned runs, unsigned keys, unsigned payloads) const;
 
   // Read back, for checks on the CPU.
-  std::vector<uint32_t> readHeads() const;
-  std::vector<shared::ListLink> readLinks() const;
-  const gl::Buffer& payloads() const { return payloads_; }
-  gl::Buffer& countersForTest() { return counters_; }
+  std::vector<shared::ListRun> readRuns() const;  // of the cells that were built last
+  std::vector<shared::ListKey> readKeys() const;
+  // `words` of each node, each payloadBytes / 4 in a row.
+  std::vector<uint32_t> readPayloads() const;
 
  private:
-  void allocateNodes(gl::Device& device, size_t nodes);
-  size_t nodeBytes() const { return sizeof(shared::ListLink) + payloadBytes_; }
+  // What the scan over the counts of all cells told.
+  struct Counted {
+    shared::ListCounters counters{};
+    std::vector<uint32_t> tallies;
+  };
+  // Runs of more than `shorter` and up to `length` nodes: `count` from place `first` in sortedCells_, or,
+  // where that is -1, some of `count` cells.
+  struct RunsOfALength {
+    int first;
+    size_t count;
+    size_t shorter;
+    size_t length;
+  };
+  enum class RunOffset { BeforeItsNodes, BehindItsNodes };
+  enum class Stored { All, PoolTooSmall, NotAll };
+  static constexpr size_t smallestBuffers = 11 * 16;  // a buffer has at least 16 bytes
+
+  size_t payloadWords() const { return payloadBytes_ / 4; }
+  bool linked() const { return strategy_ != Strategy::Count; }
+  size_t bankBytes(const gl::Device& device) const;
+  size_t nodesInOneBank(const gl::Device& device) const;
+  size_t mostNodes(const gl::Device& device) const;  // that all banks hold
+  size_t cellBytes(size_t cells) const;              // of everything that grows with the cells
+  size_t nodeBytes() const;                          // likewise with the nodes, while they are built
+  size_t bytesFor(size_t cells, size_t nodes) const;
+  size_t nodesAllowed(const gl::Device& device, size_t cells) const;  // by budget and device
+  size_t allocatedBytes() const;
+  void reserveCells(gl::Device& device, size_t cells);
+  void reserveNodes(gl::Device& device, size_t nodes);
+
+  gl::ShaderDefines bankDefines(const gl::Device& device) const;
+  gl::ShaderDefines poolDefines(const gl::Device& device) const;
+  void bindNodes(const gl::Device& device, unsigned binding, const gl::Buffer& buffer, size_t bytes) const;
+  void bindPool(const gl::Device& device) const;
+  void useWindow(const Window& window);
+  void useStep(const shared::ListStep& step);
+
+  Counted countNodes(gl::Device& device, const Window& window, const Draw& draw);
+  Counted scan(gl::Device& device, size_t cells, RunOffset offset);
+  size_t cellsHolding(size_t cells, size_t nodes) const;  // of the first cells, by their scanned counts
+  bool countsFirst() const;
+  bool limited() const;
+  size_t buildPrefix(gl::Device& device, Window window, const Draw& draw, bool wholly, bool count,
+                     ListStatistics& statistics);
+  void useStrategy(Strategy strategy);
+  Stored scatter(gl::Device& device, const Window& window, const Draw& draw);
+  Stored link(gl::Device& device, const Window& window, const Draw& draw, Counted& counted, bool& sorted);
+  bool unfinished();
+  void sort(gl::Device& device, size_t cells, const Counted& counted);
+  std::vector<uint32_t> listSortedCells(gl::Device& device, size_t cells, const Counted& counted);
+  void sortRuns(gl::Device& device, const RunsOfALength& runs);
+  const gl::Program& sortProgram(gl::Device& device, size_t size, const Network& network) const;
+  [[noreturn]] void failOverBudget(gl::Device& device, size_t cells) const;
 
   std::string label_;
   size_t cells_;
   size_t payloadBytes_;
-  size_t capacity_ = 0;
-  size_t unmetDemand_ = 0;  // of the last build that failed
-  gl::Buffer heads_;
-  gl::Buffer links_;
+  ListOptions options_;
+  Strategy strategy_;
+  size_t reservedCells_ = 0;
+  size_t capacity_ = 0;    // nodes that the pools hold
+  size_t fitting_ = 0;     // cells, of the last build that did not fit
+  size_t unmetNodes_ = 0;  // of it
+  size_t builtCells_ = 0;
+  size_t builtNodes_ = 0;
+  gl::Buffer runs_;
+  gl::Buffer sums_;  // of the scan
+  gl::Buffer keys_;
   gl::Buffer payloads_;
-  gl::Buffer counters_;
+  gl::Buffer heads_;  // linked strategies: heads, then those of the overflow lists
+  gl::Buffer links_;
+  gl::Buffer linkedPayloads_;
+  gl::Buffer sortedCells_;  // cells by the length of their runs
+  gl::Buffer counters_;     // ListCounters, then the tallies
+  gl::Buffer window_;
+  gl::Buffer step_;
+  gl::BufferTexture runsView_;
+  gl::BufferTexture keysView_;
+  gl::BufferTexture payloadsView_;
+  gl::BufferTexture linksView_;
+  gl::BufferTexture linkedPayloadsView_;
 };
+
+// The strategy for a device: see docs/how_it_works.md for the rule and the figures behind it.
+Strategy chooseStrategy(const gl::Device& device);
 
 }  // namespace sfumato::lists

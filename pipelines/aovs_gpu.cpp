@@ -50,7 +50,7 @@ void drawAovs(gl::Device& device, const AovInputs& inputs, AovImages& images) {
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   inputs.gbuffer.surface0.bind(TEXTURE_SURFACE_0);
   if (inputs.gbuffer.baseColour) inputs.gbuffer.baseColour->bind(TEXTURE_BASE_COLOUR);
-  inputs.surfaces.bind(STORAGE_LIST_HEADS, STORAGE_LIST_LINKS, STORAGE_LIST_PAYLOADS);
+  inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
   inputs.lights.bind();
   inputs.shadows.bind();
   pixels.bindStorage(STORAGE_AOVS);

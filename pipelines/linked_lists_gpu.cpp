@@ -60,7 +60,7 @@ struct Split {
 
 void bindRayInputs(const ResolveInputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
-  inputs.surfaces.bind(STORAGE_LIST_HEADS, STORAGE_LIST_LINKS, STORAGE_LIST_PAYLOADS);
+  inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   inputs.gbuffer.surface0.bind(TEXTURE_SURFACE_0);
   inputs.gbuffer.surface1.bind(TEXTURE_SURFACE_1);
@@ -237,15 +237,22 @@ class TilePainter {
     useView(gbuffer.tile, window);
     const auto lightLists = [&] {
       const Profiler::Scope time(device_.profiler(), "light lists");
-      const lights::LightListInputs of{inputs_.lights, faces_,         view_,
-                                       inputs_.width,  inputs_.height, window.corners()};
+      const lights::LightListInputs of{inputs_.lights,       faces_,         view_,
+                                       inputs_.width,        inputs_.height, window.corners(),
+                                       inputs_.quality.lists};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
     if (!lightLists) return false;
     const auto surfaces = [&] {
       const Profiler::Scope time(device_.profiler(), "surface lists");
-      const SurfaceListInputs of{inputs_.geometry, view_, gbuffer, inputs_.width, inputs_.height, window};
+      const SurfaceListInputs of{inputs_.geometry,
+                                 view_,
+                                 gbuffer,
+                                 inputs_.width,
+                                 inputs_.height,
+                                 window,
+                                 remaining(lightLists->statistics().bytes)};
       return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
     }();
     if (!surfaces) return false;
@@ -261,6 +268,14 @@ class TilePainter {
     frame_.statistics.lights += lightLists->statistics();
     frame_.statistics.surfaces += surfaces->statistics;
     return true;
+  }
+
+  // What the lists of lights leave of the budget.
+  lists::ListOptions remaining(size_t used) const {
+    lists::ListOptions options = inputs_.quality.lists;
+    if (options.budgetBytes != 0)
+      options.budgetBytes = options.budgetBytes > used ? options.budgetBytes - used : 1;
+    return options;
   }
 
   void useView(const Tile& tile, const Tile& window) {
@@ -341,7 +356,8 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
   receivers.insert(receivers.end(), seen.begin(), seen.end());
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
-                              .once = geometry_.hasShadowOnce()};
+                              .once = geometry_.hasShadowOnce(),
+                              .notSelf = geometry_.hasNotSelf()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
   return deepshadow::Maps(device_, {.lights = scene_.lights,
                                     .casters = casters,
@@ -350,7 +366,8 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                                     .castingPoints = castingPoints,
                                     .resolution = quality.shadowResolution,
                                     .stepVoxels = quality.stepVoxels,
-                                    .error = quality.shadowError});
+                                    .error = quality.shadowError,
+                                    .lists = quality.lists});
 }
 
 }  // namespace sfumato::pipelines

@@ -15,21 +15,22 @@ Tile windowOf(const SurfaceListInputs& inputs) {
 
 SurfaceLists emptyLists(gl::Device& device, const SurfaceListInputs& inputs) {
   const size_t pixels = windowOf(inputs).pixels();
-  return {lists::Lists(device, "surface lists", pixels, sizeof(shared::PackedSurface), pixels / 4), {}};
+  return {lists::Lists(device, "surface lists", pixels, sizeof(shared::PackedSurface), inputs.lists), {}};
 }
 
 // Fragments are those of the whole tile, so that a pixel's list is the same whatever the window.
-void insertSurfaces(gl::Device& device, const SurfaceListInputs& inputs) {
+void storeSurfaces(gl::Device& device, const SurfaceListInputs& inputs, const lists::Pass& pass) {
   if (!inputs.geometry.has(Layer::Translucent)) return;
   const Tile& tile = inputs.gbuffer.tile;
   const Tile window = windowOf(inputs);
   const auto samples = static_cast<int>(inputs.gbuffer.samplePositions.size());
   const gl::Framebuffer noTarget({tile.width, tile.height}, samples);
+  gl::ShaderDefines defines = pass.defines;
+  defines.emplace_back("SAMPLES", std::to_string(samples));
   inputs.view.bindUniform(UNIFORM_VIEW);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   gl::setDrawState(
-      {.program = &device.program({"scene/surface.vert", "pipelines/translucent.frag"},
-                                  {{"SAMPLES", std::to_string(samples)}}),
+      {.program = &device.program({"scene/surface.vert", "pipelines/translucent.frag"}, defines),
        .target = &noTarget,
        .viewport = {-tile.x, -tile.y, inputs.width, inputs.height},
        .scissor = glm::ivec4(window.x - tile.x, window.y - tile.y, window.width, window.height)});
@@ -40,14 +41,16 @@ void insertSurfaces(gl::Device& device, const SurfaceListInputs& inputs) {
 
 SurfaceLists buildSurfaceLists(gl::Device& device, const SurfaceListInputs& inputs) {
   SurfaceLists result = emptyLists(device, inputs);
-  result.statistics = result.lists.build(device, [&] { insertSurfaces(device, inputs); });
+  result.statistics =
+      result.lists.build(device, [&](const lists::Pass& pass) { storeSurfaces(device, inputs, pass); });
   return result;
 }
 
 std::optional<SurfaceLists> tryBuildSurfaceLists(gl::Device& device, const SurfaceListInputs& inputs) {
   SurfaceLists result = emptyLists(device, inputs);
   const auto statistics =
-      result.lists.tryBuild(device, windowOf(inputs).pixels(), [&] { insertSurfaces(device, inputs); });
+      result.lists.tryBuild(device, windowOf(inputs).pixels(),
+                            [&](const lists::Pass& pass) { storeSurfaces(device, inputs, pass); });
   if (!statistics) return std::nullopt;
   result.statistics = *statistics;
   return result;

@@ -18,6 +18,7 @@ struct SurfaceListInputs {
   int width = 0;           // of the image, pixels
   int height = 0;
   std::optional<Tile> window;  // pixels of the G-buffer that get lists, as in the view; none: all of them
+  lists::ListOptions lists{};
 };
 
 // Payloads are shared::PackedSurface.
@@ -26,7 +27,8 @@ struct SurfaceLists {
   lists::ListStatistics statistics;
 };
 
-// Costs 8 bytes a pixel and 52 a fragment. Throws Memory when they do not fit the device.
+// Costs 8 bytes a pixel and 48 a fragment, more while some strategies build (lists/lists_gpu.h). Throws
+// Memory when they do not fit budget or device.
 SurfaceLists buildSurfaceLists(gl::Device& device, const SurfaceListInputs& inputs);
 // The same, but nothing where the fragments do not fit: the caller can try a smaller window.
 std::optional<SurfaceLists> tryBuildSurfaceLists(gl::Device& device, const SurfaceListInputs& inputs);

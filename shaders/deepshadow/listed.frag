@@ -1,6 +1,8 @@
 // Translucent surfaces, and opaque ones that do not shadow themselves, into the lists of a light's texels, as far as
 // light gets there at all.
-#include "shaders/deepshadow/node.glsl"
+#define LIST_PAYLOAD ShadowNode
+#include "shaders/shared/deepshadow.h"
+#include "shaders/lists/insert.glsl"
 #include "shaders/scene/surface.glsl"
 
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
@@ -22,7 +24,8 @@ void main() {
   vec3 pass = passThrough(base, transmission());
   if (base.a > 0.0 && depth < texelFetch(opaqueDepth, texel, 0).r) {
     vec3 tau = min(-log(max(pass, 1e-30)) * wayThrough(), SHADOW_OPAQUE_TAU);
-    insertShadowNode(uint(view.size.z + texel.y * view.size.x + texel.x), depth, 0.0, tau, uint(draws[vDraw].indices.z),
-                     fragmentId(), 0u);
+    uint object = uint(draws[vDraw].indices.z);
+    ShadowNode node = ShadowNode(packHalf2x16(tau.rg), packHalf2x16(vec2(tau.b, 0.0)) | object << 16);
+    listStore(uint(texel.y * view.size.x + texel.x), depth, fragmentId(), node);
   }
 }

@@ -1,5 +1,6 @@
 // Enters a light into the list of a cell, with its front and back depth there (Lindbeck 2015, section 2.1.1). Only the
 // far side of the proxy counts: it covers every cell once, also with the camera inside the light.
+#define LIST_PAYLOAD float  // back depth
 #include "shaders/lights/light.glsl"
 #include "shaders/lights/proxy.glsl"
 #include "shaders/lists/insert.glsl"
@@ -10,9 +11,6 @@ layout(std140, binding = UNIFORM_VIEW) uniform View {
 };
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   LightPassParams params;
-};
-layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer Payloads {
-  float backDepths[];
 };
 
 flat in uint vLight;
@@ -25,11 +23,7 @@ void main() {
   vec3 perDepth = orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0);
   vec2 range;
   if (!gl_FrontFacing && proxyRange(lightProxy(vLight, view, params), start, perDepth, view.depthRange.xy, range)) {
-    uint node = listAllocate();
-    if (node != 0u) {
-      backDepths[node] = range.y;
-      ivec2 place = cell - params.window.xy;
-      listInsert(uint(place.y * params.window.z + place.x), node, range.x, vLight, 0u);
-    }
+    ivec2 place = cell - params.window.xy;
+    listStore(uint(place.y * params.window.z + place.x), range.x, vLight, range.y);
   }
 }

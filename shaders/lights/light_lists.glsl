@@ -2,15 +2,9 @@
 #include "shaders/lights/light.glsl"
 #include "shaders/shared/lists.h"
 
-layout(std430, binding = STORAGE_LIGHT_CELL_HEADS) readonly buffer LightCellHeads {
-  uint lightCellHeads[];
-};
-layout(std430, binding = STORAGE_LIGHT_CELL_LINKS) readonly buffer LightCellLinks {
-  ListLink lightCellLinks[];  // depth: front depth, id: light
-};
-layout(std430, binding = STORAGE_LIGHT_CELL_PAYLOADS) readonly buffer LightCellBacks {
-  float lightCellBacks[];  // back depth
-};
+layout(binding = TEXTURE_LIGHT_CELL_RUNS) uniform usamplerBuffer lightCellRuns;    // ListRun
+layout(binding = TEXTURE_LIGHT_CELL_KEYS) uniform usamplerBuffer lightCellKeys;    // ListKey: front depth, light
+layout(binding = TEXTURE_LIGHT_CELL_BACKS) uniform usamplerBuffer lightCellBacks;  // bits of the back depth
 
 const int LIGHT_CELL_SIDE = 4;  // pixels
 
@@ -20,4 +14,21 @@ uint lightCell(ivec2 pixel, ivec4 window) {
   int cellsAcross = (window.x + window.z + LIGHT_CELL_SIDE - 1) / LIGHT_CELL_SIDE - first.x;
   ivec2 cell = pixel / LIGHT_CELL_SIDE - first;
   return uint(cell.y * cellsAcross + cell.x);
+}
+
+ListRun lightRun(uint cell) {
+  uvec2 run = texelFetch(lightCellRuns, int(cell)).xy;
+  return ListRun(run.x, run.y);
+}
+
+// What a cell's list says of a light.
+struct ListedLight {
+  uint light;
+  float front;  // depths between which it may reach something in the cell
+  float back;
+};
+
+ListedLight listedLight(uint node) {
+  uvec2 key = texelFetch(lightCellKeys, int(node)).xy;
+  return ListedLight(key.y, uintBitsToFloat(key.x), uintBitsToFloat(texelFetch(lightCellBacks, int(node)).x));
 }

@@ -1,55 +1,97 @@
-// Sorted insertion into a cell's list under the cell's spin lock (Lindbeck 2015, section 2.2.2). The head is the
-// lock. The critical section stands inside the loop, so that two lanes of one SIMD vector that want the same lock
-// cannot wait for each other; every loop is bounded, and what a bound stops goes to the cell's overflow list, which
-// merge_overflow.comp puts in place: nothing is lost.
-#include "shaders/shared/bindings.h"
+// listStore(cell, depth, id, payload) puts a node into the list of a cell, in the way that C++ chose (LIST_PASS).
+// Define LIST_PAYLOAD before including this: the type of what a node carries, a scalar or a struct of them; without it
+// listStore has no such argument. listWants(cell) says whether nodes of a cell are built at this time; those of other
+// cells cost nothing.
+// Linked strategies bound every loop, and what a bound stops goes to the cell's overflow list, which the gather
+// takes with the others: nothing is lost.
+#include "shaders/lists/banks.glsl"
+#include "shaders/lists/counting.glsl"
+#include "shaders/lists/order.glsl"
 #include "shaders/shared/lists.h"
+#if LIST_PASS <= LIST_PASS_APPEND
+#include "shaders/lists/links.glsl"
+#endif
 
-// Heads of all cells, then the heads of their overflow lists.
-layout(std430, binding = STORAGE_LIST_HEADS) coherent buffer ListHeads {
-  uint listHeads[];
-};
-layout(std430, binding = STORAGE_LIST_LINKS) coherent buffer ListLinks {
-  ListLink listLinks[];
-};
-layout(std430, binding = STORAGE_LIST_COUNTERS) coherent buffer ListCounting {
-  ListCounters listCounters;
-};
+#ifdef LIST_PAYLOAD
+#define LIST_PAYLOAD_ARGUMENT , LIST_PAYLOAD payload
+#if LIST_PASS != LIST_PASS_COUNT
+layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer ListPayloads {
+  LIST_PAYLOAD payloads[];
+} listPayloads[LIST_BANKS];
+#define LIST_SET_PAYLOAD(bank, i) listPayloads[bank].payloads[i] = payload
+#define LIST_STORE_PAYLOAD(i) LIST_IN_BANK(LIST_SET_PAYLOAD, i)
+#endif
+#else
+#define LIST_PAYLOAD_ARGUMENT
+#define LIST_STORE_PAYLOAD(i)
+#endif
+
+bool listWants(uint cell) {
+  return cell - uint(listWindow.range.x) < uint(listWindow.range.y);
+}
+
+#if LIST_PASS == LIST_PASS_COUNT
+
+void listStore(uint cell, float depth, uint id LIST_PAYLOAD_ARGUMENT) {
+  if (listWants(cell)) atomicAdd(listRuns[cell - uint(listWindow.range.x)].count, 1u);
+}
+
+#elif LIST_PASS == LIST_PASS_SCATTER
+
+layout(std430, binding = STORAGE_LIST_NODES) writeonly buffer ListKeys {
+  uvec2 keys[];
+} listKeys[LIST_BANKS];
+#define LIST_STORE_KEY(bank, i) listKeys[bank].keys[i] = key
+
+// Runs begin as empty ones that stand at their end, and grow to the front.
+void listStore(uint cell, float depth, uint id LIST_PAYLOAD_ARGUMENT) {
+  if (listWants(cell)) {
+    uvec2 key = listKey(depth, id);
+    uint node = atomicAdd(listRuns[cell - uint(listWindow.range.x)].first, 0xffffffffu) - 1u;
+    LIST_IN_BANK(LIST_STORE_KEY, node);
+    LIST_STORE_PAYLOAD(node);
+  }
+}
+
+#else
 
 // A new node, or 0 when the pool is full: the demand is counted all the same.
 uint listAllocate() {
   uint node = atomicAdd(listCounters.demand, 1u) + 1u;
-  return node < uint(listLinks.length()) ? node : 0u;
+  return node < uint(listWindow.range.z) ? node : 0u;
 }
 
-bool listBefore(uint node, float depth, uint id) {
-  float nodeDepth = listLinks[node].depth;
-  return nodeDepth < depth || (nodeDepth == depth && listLinks[node].id < id);
+#if LIST_PASS == LIST_PASS_APPEND
+
+bool listLink(uint cell, uint node, uvec2 key, out uint tries) {
+  tries = 1u;
+  setLinkNext(node, atomicExchange(listHeads[cell], node));
+  return true;
 }
 
-// Puts `node` (not 0) into the list of `cell`. The search starts at `hint`, a node that stands before it in that
-// list, or 0.
-void listInsert(uint cell, uint node, float depth, uint id, uint hint) {
-  listLinks[node].depth = depth;
-  listLinks[node].id = id;
+#elif LIST_PASS == LIST_PASS_SPINLOCK
+
+// The head is the lock. The critical section stands inside the loop, so that two lanes of one SIMD vector that want the
+// same lock cannot wait for each other.
+bool listLink(uint cell, uint node, uvec2 key, out uint tries) {
   bool placed = false;
   bool abandoned = false;
-  uint spins = 0u;
-  while (!placed && !abandoned && spins < LIST_SPIN_LIMIT) {
+  tries = 0u;
+  while (!placed && !abandoned && tries < LIST_SPIN_LIMIT) {
     uint head = atomicExchange(listHeads[cell], LIST_LOCKED);
     if (head != LIST_LOCKED) {
-      uint previous = hint;
-      uint current = hint != 0u ? listLinks[hint].next : head;
+      uint previous = 0u;
+      uint current = head;
       uint walked = 0u;
-      while (current != 0u && walked < LIST_WALK_LIMIT && listBefore(current, depth, id)) {
+      while (current != 0u && walked < LIST_WALK_LIMIT && listBefore(linkKey(current), key)) {
         previous = current;
-        current = listLinks[current].next;
+        current = linkNext(current);
         ++walked;
       }
       uint unlocked = head;
       if (walked < LIST_WALK_LIMIT) {
-        listLinks[node].next = current;
-        if (previous != 0u) listLinks[previous].next = node;
+        setLinkNext(node, current);
+        if (previous != 0u) setLinkNext(previous, node);
         else unlocked = node;
         placed = true;
       } else {
@@ -58,13 +100,58 @@ void listInsert(uint cell, uint node, float depth, uint id, uint hint) {
       memoryBarrierBuffer();
       atomicExchange(listHeads[cell], unlocked);
     }
-    ++spins;
+    ++tries;
   }
-  if (spins > 1u) atomicMax(listCounters.maxSpins, spins);
-  if (!placed) {
-    uint overflow = uint(listHeads.length()) / 2u + cell;
-    listLinks[node].next = atomicExchange(listHeads[overflow], node);
-    atomicAdd(listCounters.overflowed, 1u);
-    atomicAdd(listCounters.unmerged, 1u);
+  return placed;
+}
+
+#else
+
+// Whoever finds that another node came in between goes on from the node before: nodes are only ever added.
+bool listLink(uint cell, uint node, uvec2 key, out uint tries) {
+  bool placed = false;
+  uint previous = 0u;
+  uint walked = 0u;
+  tries = 0u;
+  while (!placed && tries < LIST_SPIN_LIMIT && walked < LIST_WALK_LIMIT) {
+    uint current = previous != 0u ? linkNext(previous) : listHeads[cell];
+    while (current != 0u && walked < LIST_WALK_LIMIT && listBefore(linkKey(current), key)) {
+      previous = current;
+      current = linkNext(current);
+      ++walked;
+    }
+    if (walked < LIST_WALK_LIMIT) {
+      setLinkNext(node, current);
+      memoryBarrierBuffer();
+      uint found = previous != 0u ? swapLinkNext(previous, current, node) : atomicCompSwap(listHeads[cell], current, node);
+      placed = found == current;
+    }
+    ++tries;
+  }
+  return placed;
+}
+
+#endif
+
+void listStore(uint cell, float depth, uint id LIST_PAYLOAD_ARGUMENT) {
+  uint node = listWants(cell) ? listAllocate() : 0u;
+  if (node != 0u) {
+    cell -= uint(listWindow.range.x);
+    uvec2 key = listKey(depth, id);
+    LIST_STORE_PAYLOAD(node);
+    setLinkKey(node, key);
+    uint tries;
+    bool placed = listLink(cell, node, key, tries);
+    if (tries > 1u) {
+      atomicMax(listCounters.maxSpins, tries);
+      atomicAdd(listCounters.retries, tries - 1u);
+      atomicAdd(listTallies[LIST_TALLY_SPINS + min(findMSB(tries - 1u), LIST_SPIN_CLASSES - 1)], 1u);
+    }
+    if (!placed) {
+      setLinkNext(node, atomicExchange(listHeads[uint(listWindow.range.y) + cell], node));
+      atomicAdd(listCounters.overflowed, 1u);
+    }
   }
 }
+
+#endif

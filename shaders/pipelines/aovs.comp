@@ -2,7 +2,7 @@
 // when the G-buffer holds the base colour.
 #include "shaders/deepshadow/lookup.glsl"
 #include "shaders/lights/light_lists.glsl"
-#include "shaders/lists/links.glsl"
+#include "shaders/lists/runs.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/aovs.h"
 #include "shaders/shared/bindings.h"
@@ -23,17 +23,7 @@ layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 layout(binding = TEXTURE_BASE_COLOUR) uniform pixelSampler opaqueBaseColour;
 
-const uint LIST_LIMIT = 20000u;  // of each of three walks: below the drivers' loop limit
-
-uint fragmentsOf(ivec2 pixel) {
-  uint count = 0u;
-  uint node = listHeads[listOfPixel(view, pixel)];
-  while (node != 0u && count < LIST_LIMIT) {
-    node = listLinks[node].next;
-    ++count;
-  }
-  return count;
-}
+const uint LIST_LIMIT = 20000u;  // of each of two walks: below the drivers' loop limit
 
 // Nodes in the texel of a light's map that holds a point which the light reaches.
 uint nodesOfTexel(uint number, vec3 p) {
@@ -87,17 +77,14 @@ void main() {
   vec3 pView = view.halfExtent.z != 0.0 ? vec3(plane, -depth) : depth * vec3(plane, -1.0);
   vec3 p = opaque ? (view.worldFromView * vec4(pView, 1.0)).xyz : vec3(0.0);
   uint directional = uint(params.options.z);
-  uint lightCount = directional;
   uint shadowNodes = 0u;
   if (opaque)
-    for (uint light = 0u; light < directional; ++light) shadowNodes += nodesOfTexel(light, p);
-  uint node = lightCellHeads[lightCell(pixel, view.window)];
-  while (node != 0u && lightCount < LIST_LIMIT) {
-    if (opaque && lightCellLinks[node].depth <= depth && depth <= lightCellBacks[node])
-      shadowNodes += nodesOfTexel(lightCellLinks[node].id, p);
-    node = lightCellLinks[node].next;
-    ++lightCount;
+    for (uint light = 0u; light < min(directional, LIST_LIMIT); ++light) shadowNodes += nodesOfTexel(light, p);
+  ListRun run = lightRun(lightCell(pixel, view.window));
+  for (uint i = 0u; i < min(opaque ? run.count : 0u, LIST_LIMIT); ++i) {
+    ListedLight listed = listedLight(run.first + i);
+    if (listed.front <= depth && depth <= listed.back) shadowNodes += nodesOfTexel(listed.light, p);
   }
-  aovs[listOfPixel(view, pixel)] = AovPixel(depth, normal.x, normal.y, normal.z, albedo.r, albedo.g, albedo.b, lightCount,
-                                            fragmentsOf(pixel), shadowNodes);
+  aovs[listOfPixel(view, pixel)] = AovPixel(depth, normal.x, normal.y, normal.z, albedo.r, albedo.g, albedo.b,
+                                            directional + run.count, listRun(listOfPixel(view, pixel)).count, shadowNodes);
 }

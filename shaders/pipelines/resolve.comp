@@ -5,9 +5,9 @@
 // objects that do not shadow themselves.
 #include "shaders/deepshadow/lookup.glsl"
 #include "shaders/lights/light_lists.glsl"
-#include "shaders/lists/links.glsl"
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/resolve.h"
 #include "shaders/shared/linear_id.glsl"
 #ifdef SMOKE
@@ -28,9 +28,6 @@ layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
 };
 layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   ResolveCounters counters;
-};
-layout(std430, binding = STORAGE_LIST_PAYLOADS) readonly buffer SurfaceNodes {
-  PackedSurface surfaceNodes[];
 };
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
@@ -70,11 +67,13 @@ vec3 shadeSurface(Surface surface, PixelRay ray, float depth) {
     sum += reflectedFrom(light, surface, p, ray.towardsViewer);
     work += 16u;
   }
+  ListRun run = lightRun(ray.cell);
   uint walked = 0u;
-  uint node = lightCellHeads[ray.cell];
-  while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= depth) {
-    if (depth <= lightCellBacks[node]) sum += reflectedFrom(lightCellLinks[node].id, surface, p, ray.towardsViewer);
-    node = lightCellLinks[node].next;
+  bool reached = true;
+  while (reached && walked < min(run.count, LIGHT_WALK_LIMIT)) {
+    ListedLight listed = listedLight(run.first + walked);
+    reached = listed.front <= depth;
+    if (reached && depth <= listed.back) sum += reflectedFrom(listed.light, surface, p, ray.towardsViewer);
     ++walked;
     work += 16u;
   }
@@ -203,11 +202,13 @@ vec3 scattered(Steps steps, PixelRay ray) {
   vec3 sum = vec3(0.0);
   for (uint light = 0u; light < uint(params.options.z); ++light) sum += scatteredFrom(light, steps, ray, 0.0, 3e38);
   float farthest = steps.depth[steps.count - 1];
+  ListRun run = lightRun(ray.cell);
   uint walked = 0u;
-  uint node = lightCellHeads[ray.cell];
-  while (node != 0u && walked < LIGHT_WALK_LIMIT && lightCellLinks[node].depth <= farthest) {
-    sum += scatteredFrom(lightCellLinks[node].id, steps, ray, lightCellLinks[node].depth, lightCellBacks[node]);
-    node = lightCellLinks[node].next;
+  bool reached = true;
+  while (reached && walked < min(run.count, LIGHT_WALK_LIMIT)) {
+    ListedLight listed = listedLight(run.first + walked);
+    reached = listed.front <= farthest;
+    if (reached) sum += scatteredFrom(listed.light, steps, ray, listed.front, listed.back);
     ++walked;
   }
   if (walked == LIGHT_WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
@@ -245,7 +246,8 @@ void main() {
   float depth = first ? view.depthRange.x : rays[number].depth;
   if (depth >= FINISHED) return;
   RayPlace place = rayPlace(number);
-  uint node = first ? listHeads[listOfPixel(view, place.pixel)] : rays[number].node;
+  ListRun surfaces = listRun(listOfPixel(view, place.pixel));
+  uint passed = first ? 0u : rays[number].surfaces;
   vec3 radiance = first ? vec3(0.0) : vec3(rays[number].radianceR, rays[number].radianceG, rays[number].radianceB);
   vec3 throughput = first ? vec3(1.0) : vec3(rays[number].throughputR, rays[number].throughputG, rays[number].throughputB);
 
@@ -279,11 +281,11 @@ void main() {
   while (walking && work < uint(RESOLVE_WORK_LIMIT)) {
     ++work;
     float nextSurface = rayEnd;
-    if (node != 0u) {
+    if (passed < surfaces.count) {
       // Nodes stand before the farthest sample's opaque depth, not before that of each.
-      float nodeDepth = listLinks[node].depth;
+      float nodeDepth = listDepth(surfaces.first + passed);
       if (nodeDepth < rayEnd) nextSurface = nodeDepth;
-      else node = 0u;
+      else passed = surfaces.count;
     }
     bool atSurface = true;
 #ifdef SMOKE
@@ -317,14 +319,14 @@ void main() {
     if (steps.count > 0) radiance += scattered(steps, ray);
     atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
 #endif
-    if (atSurface && node != 0u) {
-      PackedSurface stored = surfaceNodes[node];
+    if (atSurface && passed < surfaces.count) {
+      PackedSurface stored = listedSurface(surfaces.first + passed);
       if (!place.split || (stored.coverageObject >> place.number & 1u) != 0u) {
         radiance += throughput * shadeSurface(unpackSurface(stored), ray, nextSurface);
         throughput *= surfacePass(stored);
       }
       depth = max(depth, nextSurface);
-      node = listLinks[node].next;
+      ++passed;
     } else if (atSurface) {
       if (opaque < view.depthRange.y) {
         uvec4 more = texelFetch(opaqueSurface1, texel, place.number);
@@ -338,5 +340,5 @@ void main() {
   }
   if (walking) atomicAdd(counters.unfinished, 1u);
   rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
-                          throughput.b, node);
+                          throughput.b, passed);
 }

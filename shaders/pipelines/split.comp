@@ -1,18 +1,14 @@
 // Finds the pixels whose samples differ: edges of surfaces, opaque or translucent, and of their colours. Those are walked
 // sample by sample, all others once through their centre.
-#include "shaders/lists/links.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve.h"
-#include "shaders/shared/surface.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = UNIFORM_VIEW) uniform View {
   ViewParams view;
-};
-layout(std430, binding = STORAGE_LIST_PAYLOADS) readonly buffer SurfaceNodes {
-  PackedSurface surfaceNodes[];
 };
 layout(std430, binding = STORAGE_PIXEL_GROUPS) writeonly buffer Groups {
   uint pixelGroups[];
@@ -58,13 +54,9 @@ bool opaqueSamplesDiffer(ivec2 texel) {
 bool listSamplesDiffer(uint number) {
   const uint all = (1u << SAMPLES) - 1u;
   bool differ = false;
-  uint walked = 0u;
-  uint node = listHeads[number];
-  while (node != 0u && !differ) {
-    if ((surfaceNodes[node].coverageObject & all) != all || walked == LIST_LIMIT) differ = true;
-    node = listLinks[node].next;
-    ++walked;
-  }
+  ListRun run = listRun(number);
+  for (uint i = 0u; i < run.count && !differ; ++i)
+    if ((listedCoverageObject(run.first + i) & all) != all || i == LIST_LIMIT) differ = true;
   return differ;
 }
 

@@ -1,13 +1,12 @@
 // Translucent surfaces of the camera into the lists of its pixels: those before the opaque depth of any of the
 // pixel's SAMPLES, and no others.
+#define LIST_PAYLOAD PackedSurface
+#include "shaders/shared/surface.h"
 #include "shaders/lists/insert.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/scene/surface.glsl"
 
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
-layout(std430, binding = STORAGE_LIST_PAYLOADS) writeonly buffer Payloads {
-  PackedSurface payloads[];
-};
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);  // of the tile's G-buffer
@@ -17,11 +16,7 @@ void main() {
   PackedSurface surface = packSurface(base);
   float opaque = 0.0;
   for (int i = 0; i < SAMPLES; ++i) opaque = max(opaque, texelFetch(opaqueDepth, texel, i).r);
-  if (base.a > 0.0 && depth < opaque && hasList(view, texel + view.tile.xy)) {
-    uint node = listAllocate();
-    if (node != 0u) {
-      payloads[node] = surface;
-      listInsert(listOfPixel(view, texel + view.tile.xy), node, depth, fragmentId(), 0u);
-    }
-  }
+  ivec2 pixel = texel + view.tile.xy;
+  if (base.a > 0.0 && depth < opaque && hasList(view, pixel))
+    listStore(listOfPixel(view, pixel), depth, fragmentId(), surface);
 }

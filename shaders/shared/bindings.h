@@ -4,18 +4,18 @@
 // Uniform blocks
 #define UNIFORM_VIEW 0  // ViewParams: what is looked from
 #define UNIFORM_PASS 1  // the pass's own block
+#define UNIFORM_LISTS 2      // ListWindow, while lists are built
+#define UNIFORM_LIST_STEP 3  // ListStep: one step of their scan or sort
 
 // Storage blocks
 #define STORAGE_DRAWS 0      // DrawData[]
 #define STORAGE_MATERIALS 1  // MaterialData[]
-#define STORAGE_LIST_HEADS 2  // the list that is built or read: see lists.h
-#define STORAGE_LIST_LINKS 3
-#define STORAGE_LIST_PAYLOADS 4
+#define STORAGE_LIST_RUNS 2   // the lists that are built: see lists.h
+#define STORAGE_LIST_HEADS 3  // of linked lists
+#define STORAGE_LIST_SUMS 4   // of the scan; then the cells that are sorted
 #define STORAGE_LIST_COUNTERS 5
 #define STORAGE_LIGHTS 6            // LightData[]
-#define STORAGE_LIGHT_CELL_HEADS 7  // the light lists, for readers
-#define STORAGE_LIGHT_CELL_LINKS 8
-#define STORAGE_LIGHT_CELL_PAYLOADS 9
+#define STORAGE_AOVS 7              // AovPixel[]
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
 #define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
@@ -23,7 +23,8 @@
 #define STORAGE_RAYS 14         // RayState[]
 #define STORAGE_COUNTERS 15       // the pass's own counters
 #define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
-#define STORAGE_AOVS 17           // AovPixel[]
+#define STORAGE_LIST_NODES 17     // keys or links, LIST_MAX_BANKS of them
+#define STORAGE_LIST_PAYLOADS 21  // likewise
 
 // Texture units
 #define TEXTURE_BASE_COLOUR 0
@@ -38,4 +39,12 @@
 #define TEXTURE_SURFACE_1 9
 #define TEXTURE_SHADOW_TEXELS 10
 #define TEXTURE_SHADOW_KNOTS 11
-#define TEXTURE_VOLUMES 12  // and the units after it
+#define TEXTURE_LIST_RUNS 12  // the lists that are read
+#define TEXTURE_LIST_KEYS 13
+#define TEXTURE_LIST_PAYLOADS 14
+#define TEXTURE_LIST_LINKS 13  // while they are built
+#define TEXTURE_LIST_LINKED_PAYLOADS 14
+#define TEXTURE_LIGHT_CELL_RUNS 15  // the light lists, likewise
+#define TEXTURE_LIGHT_CELL_KEYS 16
+#define TEXTURE_LIGHT_CELL_BACKS 17
+#define TEXTURE_VOLUMES 18  // and the units after it

@@ -27,21 +27,24 @@ struct ShadowKnot {
   float tauB;
 };
 
-// Payload of a node while the lists are built: where the light falls, and by how much.
+// Payload of a surface in the list of a texel: by how much the light falls.
 struct ShadowNode {
-  float range;        // m; 0: a surface, a step
   uint tauRg;         // optical depth of the drop, halves
   uint tauBObject;    // low: the same; high: SHADOW_* of the object, 0 for most
 };
 
 struct ShadowPassParams {
   vec4 march;         // x: step of the march through smoke, voxels; y: bound of the error of the transmittance
-  ivec4 range;  // of the texels that are built: x: number of their first knot, y: how many
+  ivec4 cells;  // of the face, that knots are written of: x: the first, y: how many, z, w: place of the first in the
+                // runs and in the texels
+  ivec4 knots;  // x: number of the pool's first; y: 1 for all cells, 0 for those that found no room
 };
 
 struct ShadowCounters {
   uint knots;       // demand, counted past the capacity
+  uint unplaced;    // of it, what found no room
   uint boundHit;    // texels whose march or walk was longer than its bound
+  uint hidden;      // surfaces in lists that are behind the opaque depth
 };
 
 SHARED_END

@@ -16,7 +16,7 @@ struct RayState {
   float throughputR;
   float throughputG;
   float throughputB;
-  uint node;        // the next surface, 0: none left but the opaque one
+  uint surfaces;    // of its list that it has passed
 };
 
 struct ResolveParams {

@@ -3,12 +3,12 @@
 #include "lights/light_lists_gpu.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/random.h"
 #include "gl/buffer.h"
 #include "lights/light_reach.h"
-#include "lists/verify.h"
 #include "scene/camera_view.h"
 #include "tests/gl/test_device.h"
 
@@ -58,17 +58,14 @@ class LightListsGpu : public tests::GpuTest {
     view.writeValue(scene::cameraView(camera, width, height));
     const std::vector<ShadowFaces> shadows(lights.size());
     const LightLists built(device(), {lights, shadows, view, width, height});
-    const auto heads = built.lists().readHeads();
-    const auto links = built.lists().readLinks();
-    const lists::ListCheck check = lists::checkLists(heads, links);
-    EXPECT_EQ(check.fault, "");
-    EXPECT_EQ(check.nodes, built.statistics().demand);
-    const auto backs = built.lists().payloads().readValues<float>(links.size());
+    const auto keys = built.lists().readKeys();
+    const auto backs = built.lists().readPayloads();
+    EXPECT_EQ(keys.size(), built.statistics().demand);
     std::vector<std::vector<ListedLight>> cells;
-    for (const uint32_t head : heads) {
+    for (const shared::ListRun& run : built.lists().readRuns()) {
       auto& cell = cells.emplace_back();
-      for (uint32_t node = head; node != 0; node = links[node].next)
-        cell.push_back({built.order()[links[node].id], links[node].depth, backs[node]});
+      for (uint32_t i = run.first; i < run.first + run.count; ++i)
+        cell.push_back({built.order()[keys[i].id], keys[i].depth, std::bit_cast<float>(backs[i])});
     }
     return cells;
   }

@@ -1,22 +1,36 @@
 #include "lists/lists_gpu.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
-#include "lists/verify.h"
 #include "shaders/shared/bindings.h"
 #include "tests/gl/test_device.h"
 
 namespace sfumato::lists {
 namespace {
 
+constexpr Strategy strategies[] = {Strategy::SpinLock, Strategy::LockFree, Strategy::Append, Strategy::Count};
+
 struct Load {
   uint32_t nodes;
   uint32_t cells;
   uint32_t depths;  // distinct ones
   uint32_t seed;
+};
+
+// In which order, and in how many draws, the nodes are stored: node = factor * i + offset.
+struct Order {
+  uint32_t factor = 1;  // no divisor of the number of nodes
+  uint32_t offset = 0;
+  uint32_t draws = 1;
+};
+
+struct Params {
+  Load load;
+  uint32_t factor, offset, first, count;
 };
 
 uint32_t hash(uint32_t x) {
@@ -27,111 +41,116 @@ uint32_t hash(uint32_t x) {
   return x ^ x >> 16;
 }
 
+// Node numbers of every cell, sorted by (depth, number).
+using Cells = std::vector<std::vector<uint32_t>>;
+
+uint32_t cellOf(const Load& load, uint32_t node) {
+  return hash(node + load.seed) % load.cells;
+}
+
+float depthOf(const Load& load, uint32_t node) {
+  return static_cast<float>(hash(node * 3u + load.seed) % load.depths) - 2.f;
+}
+
+Cells listsOnTheCpu(const Load& load) {
+  Cells cells(load.cells);
+  for (uint32_t i = 0; i < load.nodes; ++i) cells[cellOf(load, i)].push_back(i);
+  for (auto& cell : cells)
+    std::sort(cell.begin(), cell.end(), [&](uint32_t a, uint32_t b) {
+      return std::pair(depthOf(load, a), a) < std::pair(depthOf(load, b), b);
+    });
+  return cells;
+}
+
 class ListsGpu : public tests::GpuTest {
  protected:
-  struct Built {
-    ListStatistics statistics;
-    ListCheck check;
-    std::vector<std::vector<uint32_t>> cells;  // payloads in list order
-  };
-
-  Built build(const Load& load, size_t expectedNodes, const gl::ShaderDefines& defines = {}) {
-    Lists lists(device(), "test lists", load.cells, sizeof(uint32_t), expectedNodes);
-    gl::Buffer params(device(), "test params", sizeof load);
-    params.writeValue(load);
-    const gl::Program& program = device().program({"lists/insert_hashed.comp"}, defines);
-    Built built;
-    built.statistics = lists.build(device(), [&] {
-      params.bindUniform(UNIFORM_PASS);
-      gl::dispatchLinear(program, load.nodes);
-    });
-    const auto heads = lists.readHeads();
-    const auto links = lists.readLinks();
-    built.check = checkLists(heads, links);
-    if (!built.check.fault.empty()) return built;
-    const auto payloads = lists.payloads().readValues<uint32_t>(links.size());
-    for (const uint32_t head : heads) {
-      auto& cell = built.cells.emplace_back();
-      for (uint32_t node = head; node != 0; node = links[node].next) cell.push_back(payloads[node]);
-    }
-    return built;
+  Draw drawOf(const Load& load, int payloadWords, const Order& order = {}, gl::ShaderDefines more = {}) {
+    params_ = gl::Buffer(device(), "test params", sizeof(Params));
+    return [=, this](const Pass& pass) {
+      gl::ShaderDefines defines = pass.defines;
+      defines.emplace_back("PAYLOAD", std::to_string(payloadWords));
+      defines.insert(defines.end(), more.begin(), more.end());
+      const gl::Program& program = device().program({"lists/store_hashed.comp"}, defines);
+      const uint32_t share = (load.nodes + order.draws - 1) / order.draws;
+      for (uint32_t first = 0; first < load.nodes; first += share) {
+        params_.writeValue(
+            Params{load, order.factor, order.offset, first, std::min(share, load.nodes - first)});
+        params_.bindUniform(UNIFORM_PASS);
+        gl::dispatchLinear(program, share);
+      }
+    };
   }
 
-  // The same lists on the CPU.
-  static std::vector<std::vector<uint32_t>> expected(const Load& load) {
-    std::vector<std::vector<uint32_t>> cells(load.cells);
-    for (uint32_t i = 0; i < load.nodes; ++i) cells[hash(i + load.seed) % load.cells].push_back(i);
-    const auto depth = [&](uint32_t i) { return hash(i * 3u + load.seed) % load.depths; };
-    for (auto& cell : cells)
-      std::sort(cell.begin(), cell.end(),
-                [&](uint32_t a, uint32_t b) { return std::pair(depth(a), a) < std::pair(depth(b), b); });
+  // The runs that were built last, with every key and payload checked.
+  Cells read(const Lists& lists, const Load& load, int payloadWords) {
+    const auto runs = lists.readRuns();
+    const auto keys = lists.readKeys();
+    const auto payloads = lists.readPayloads();
+    const auto words = static_cast<size_t>(payloadWords);
+    Cells cells;
+    size_t wrong = 0;
+    for (const shared::ListRun& run : runs) {
+      auto& cell = cells.emplace_back();
+      for (size_t i = run.first; i < size_t{run.first} + run.count && i < keys.size(); ++i) {
+        const uint32_t node = keys[i].id;
+        cell.push_back(node);
+        wrong += keys[i].depth != depthOf(load, node);
+        const uint32_t expected[] = {node, 2 * node, ~node};
+        for (size_t word = 0; word < words; ++word) wrong += payloads[i * words + word] != expected[word];
+      }
+    }
+    EXPECT_EQ(wrong, 0u);
     return cells;
   }
+
+  Cells build(const Load& load, int payloadWords, const ListOptions& options, const Order& order = {},
+              const gl::ShaderDefines& more = {}) {
+    Lists lists(device(), "test lists", load.cells, static_cast<size_t>(payloadWords) * 4, options);
+    statistics_ = lists.build(device(), drawOf(load, payloadWords, order, more));
+    return read(lists, load, payloadWords);
+  }
+
+  // The cells of all windows, one after the other.
+  Cells buildWindows(const Load& load, int payloadWords, const ListOptions& options) {
+    Lists lists(device(), "test lists", load.cells, static_cast<size_t>(payloadWords) * 4, options);
+    Cells cells;
+    statistics_ = lists.buildWindows(device(), drawOf(load, payloadWords), [&](const Window& window) {
+      EXPECT_EQ(window.firstCell, cells.size());
+      const Cells part = read(lists, load, payloadWords);
+      EXPECT_EQ(window.cells, part.size());
+      cells.insert(cells.end(), part.begin(), part.end());
+    });
+    return cells;
+  }
+
+  gl::Buffer params_;
+  ListStatistics statistics_;
 };
 
-constexpr Load crowded{20000, 64, 100, 1};  // many equal depths, contention on every lock
+constexpr Load crowded{20000, 64, 100, 1};  // many equal depths, long runs
 constexpr Load sparse{50000, 40000, 1u << 24, 2};
+constexpr Load mixed{60001, 5000, 50, 7};  // runs of 3 to 30
+constexpr Load oneCell{500, 1, 7, 3};
+constexpr Load oneNode{1, 1, 1, 4};
 
-TEST_F(ListsGpu, HoldsEveryNodeOnceAndSortedUnderContention) {
-  for (const Load& load : {crowded, sparse, Load{500, 1, 7, 3}, Load{1, 1, 1, 4}}) {
-    const Built built = build(load, load.nodes);
-    ASSERT_EQ(built.check.fault, "");
-    EXPECT_EQ(built.check.nodes, built.statistics.demand);
-    EXPECT_EQ(built.statistics.demand, load.nodes);
-    EXPECT_EQ(built.statistics.builds, 1);
-    EXPECT_EQ(built.cells, expected(load));
+TEST_F(ListsGpu, EveryStrategyGivesTheListsOfTheCpuWhateverTheOrderOfDraws) {
+  for (const Load& load : {crowded, sparse, mixed, oneCell, oneNode}) {
+    const Cells expected = listsOnTheCpu(load);
+    for (const Strategy strategy : strategies) {
+      for (const int words : {0, 1, 3}) {
+        for (const Order& order : {Order{}, Order{7919, 13, 5}}) {
+          ASSERT_EQ(build(load, words, {.strategy = strategy}, order), expected)
+              << nameOf(strategy) << ", " << load.nodes << " nodes, " << words << " words";
+          EXPECT_EQ(statistics_.strategy, strategy);
+          EXPECT_EQ(statistics_.distrusted, 0);
+          EXPECT_EQ(statistics_.demand, load.nodes);
+          EXPECT_EQ(statistics_.stored, load.nodes);
+          EXPECT_EQ(statistics_.predicted, load.nodes);
+          EXPECT_EQ(statistics_.builds, 2);
+        }
+      }
+    }
   }
-}
-
-TEST_F(ListsGpu, GrowsToTheDemandAndBuildsAgain) {
-  const Built built = build(crowded, 10);
-  ASSERT_EQ(built.check.fault, "");
-  EXPECT_EQ(built.statistics.builds, 2);
-  EXPECT_GE(built.statistics.capacity, crowded.nodes);
-  EXPECT_EQ(built.cells, expected(crowded));
-}
-
-TEST_F(ListsGpu, MergesWhatABoundedSpinOrWalkSentToTheOverflowList) {
-  // Bounds so low that most nodes take the fallback.
-  const Built built = build(crowded, crowded.nodes, {{"LIST_SPIN_LIMIT", "1"}, {"LIST_WALK_LIMIT", "3"}});
-  ASSERT_EQ(built.check.fault, "");
-  EXPECT_GT(built.statistics.overflowed, crowded.nodes / 4);
-  EXPECT_EQ(built.cells, expected(crowded));
-}
-
-TEST_F(ListsGpu, TheChecksSeeLossesWithoutTheLock) {
-  const Built built = build(crowded, crowded.nodes, {{"WITHOUT_LOCK", "1"}});
-  const bool caught = !built.check.fault.empty() || built.check.nodes < built.statistics.demand;
-  EXPECT_TRUE(caught) << "no update was lost without the lock: this device cannot show that the lock works";
-}
-
-TEST_F(ListsGpu, SaysWhatItWouldTakeWhenTheDeviceCannotHoldIt) {
-  Lists lists(device(), "test lists", 4, 4, 16);
-  const auto draw = [&] {
-    // A demand that was counted, of nodes that no pool holds.
-    const shared::ListCounters counters{.demand = 4000000000u, .overflowed = 0, .unmerged = 0, .maxSpins = 0};
-    lists.countersForTest().writeValue(counters);
-  };
-  EXPECT_FALSE(lists.tryBuild(device(), 4, draw).has_value());
-  try {
-    lists.build(device(), draw);
-    FAIL() << "no error";
-  } catch (const base::Error& error) {
-    EXPECT_EQ(error.exitCode, base::ExitCode::Memory);
-    EXPECT_NE(std::string(error.what()).find("61035.2 MiB"), std::string::npos) << error.what();
-  }
-}
-
-TEST(CheckLists, FindsEachFault) {
-  const std::vector<shared::ListLink> links = {
-      {0, 0, 0}, {1.f, 0, 2}, {2.f, 0, 0}, {0.5f, 0, 1}, {9.f, 0, 4}};
-  EXPECT_EQ(checkLists(std::vector<uint32_t>{3}, links).fault, "");
-  EXPECT_EQ(checkLists(std::vector<uint32_t>{3}, links).nodes, 3u);
-  EXPECT_NE(checkLists(std::vector<uint32_t>{1, 3}, links).fault, "");  // shared node
-  EXPECT_NE(checkLists(std::vector<uint32_t>{4}, links).fault, "");     // cycle
-  EXPECT_NE(checkLists(std::vector<uint32_t>{7}, links).fault, "");     // outside the pool
-  const std::vector<shared::ListLink> unsorted = {{0, 0, 0}, {3.f, 0, 2}, {2.f, 0, 0}};
-  EXPECT_NE(checkLists(std::vector<uint32_t>{1}, unsorted).fault, "");
 }
 
 }  // namespace

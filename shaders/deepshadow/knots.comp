@@ -1,0 +1,215 @@
+// Writes the knots of each texel's function: those of the smoke, marched from the light to the opaque depth, and two for
+// each surface of the texel's run, in order of depth. So a lookup is a binary search and no walk. A texel an invocation:
+// knots are counted, then taken from the pool, then written; a texel that finds no room waits for the next dispatch.
+// Smoke comes in order of depth by itself: it needs no list. Its knots are kept while they are counted; what is more
+// than a few is marched again.
+// VOLUME_COUNT is defined when there are media, SURFACES when there are lists; SHADOW_ONCE_OBJECTS and
+// SHADOW_NOT_SELF_OBJECTS when some of their surfaces shadow in these ways.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/deepshadow.h"
+#include "shaders/shared/geometry.h"
+#include "shaders/shared/linear_id.glsl"
+#include "shaders/shared/view.h"
+#include "shaders/lists/runs.glsl"
+#ifdef VOLUME_COUNT
+#include "shaders/deepshadow/smoke_march.glsl"
+#endif
+
+layout(std140, binding = UNIFORM_PASS) uniform Pass {
+  ShadowPassParams params;
+};
+layout(std140, binding = UNIFORM_VIEW) uniform View {
+  ViewParams view;
+};
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+layout(std430, binding = STORAGE_SHADOW_TEXELS) buffer Texels {
+  ShadowTexel texels[];
+};
+layout(std430, binding = STORAGE_SHADOW_KNOTS) writeonly buffer Knots {
+  ShadowKnot knots[];
+};
+layout(std430, binding = STORAGE_COUNTERS) coherent buffer Counting {
+  ShadowCounters counters;
+};
+
+const uint NO_ROOM = 0xffffffffu;  // a count
+// Surfaces looked at, so that all loops together stay below the drivers' limit.
+#ifdef SHADOW_NOT_SELF_OBJECTS
+const uint WALK_LIMIT = 15000u;
+#else
+const uint WALK_LIMIT = 30000u;
+#endif
+const float NOWHERE = 3e38;
+
+uint knot = 0u;            // the next one
+uint walked = 0u;
+#ifdef SURFACES
+ListRun run = ListRun(0u, 0u);
+uint surface = 0u;         // of the run, the next one
+uint firstKnot = 0u;
+uint ownStep = 0u;         // the next one
+vec3 surfaceTau = vec3(0.0);
+uint hidden = 0u;
+
+// What a surface takes; nothing where a former one of the same object shadows once.
+ShadowNode surfaceNode(uint number) {
+  uvec2 words = listPayloadPair(run.first + number);
+#ifdef SHADOW_ONCE_OBJECTS
+  uint object = words.y >> 16;
+  if ((object & uint(SHADOW_ONCE)) != 0u) {
+    bool shadowed = false;
+    for (uint i = 0u; i < number && !shadowed && walked < WALK_LIMIT; ++i) {
+      shadowed = listPayloadPair(run.first + i).y >> 16 == object;
+      ++walked;
+    }
+    if (shadowed) words = uvec2(0u);
+  }
+#endif
+  return ShadowNode(words.x, words.y);
+}
+
+uint objectOf(ShadowNode node) {
+  return node.tauBObject >> 16;
+}
+#endif
+
+void writeKnot(float depth, vec3 tau) {
+  knots[knot] = ShadowKnot(depth, tau.r, tau.g, tau.b);
+  ++knot;
+}
+
+// Knots of the surfaces up to `depth`. The optical depth of the smoke is `before` at the knot that was written last, and
+// `tau` at `depth`.
+void writeSurfaces(vec2 before, float depth, float tau, float opaque) {
+#ifdef SURFACES
+  while (surface < run.count && walked < WALK_LIMIT && listDepth(run.first + surface) <= depth) {
+    float at = listDepth(run.first + surface);
+    ShadowNode node = surfaceNode(surface);
+    vec3 drop = vec3(unpackHalf2x16(node.tauRg), unpackHalf2x16(node.tauBObject).x);
+    float smokeTau = mix(before.y, tau, clamp((at - before.x) / max(depth - before.x, 1e-30), 0.0, 1.0));
+#ifdef SHADOW_NOT_SELF_OBJECTS
+    if ((objectOf(node) & uint(SHADOW_NOT_SELF)) != 0u) {
+      bool isOpaque = min(min(drop.r, drop.g), drop.b) >= SHADOW_DARK_TAU;
+      knots[ownStep] = ShadowKnot(at, float(objectOf(node)), float(knot - firstKnot), isOpaque ? 1.0 : 0.0);
+      ++ownStep;
+    }
+#endif
+    writeKnot(at, surfaceTau + smokeTau);
+    surfaceTau += drop;
+    writeKnot(at, surfaceTau + smokeTau);
+    if (at > opaque) ++hidden;
+    ++surface;
+    ++walked;
+  }
+#endif
+}
+
+// A knot of the smoke, after the surfaces before it.
+void writeSmokeKnot(inout vec2 before, vec2 smoke, float opaque) {
+  writeSurfaces(before, smoke.x, smoke.y, opaque);
+#ifdef SURFACES
+  writeKnot(smoke.x, surfaceTau + smoke.y);
+#else
+  writeKnot(smoke.x, vec3(smoke.y));
+#endif
+  before = smoke;
+}
+
+#ifdef VOLUME_COUNT
+const uint KEPT = 24u;
+vec2 kept[KEPT];
+
+SmokeRay smokeRay(ivec2 texel, float opaque) {
+  vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
+  bool orthographic = view.halfExtent.z != 0.0;
+  vec3 originView = orthographic ? vec3(plane, 0.0) : vec3(0.0);
+  vec3 perDepthView = orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0);
+  vec3 origin = (view.worldFromView * vec4(originView, 1.0)).xyz;
+  vec3 perDepth = mat3(view.worldFromView) * perDepthView;
+  SmokeRay ray;
+  ray.media = mediaRay(origin, perDepth, vec2(0.0, opaque), params.march.x);
+  ray.end = ray.media.rangeOfAll.y;
+  ray.metresPerDepth = length(perDepth);
+  ray.bound = params.march.y;
+  float tooMany = ray.media.rangeOfAll.x < ray.end ? stepsAtMost(ray.media) / MAX_STEPS : 0.0;
+  if (tooMany > 1.0) {
+    atomicAdd(counters.boundHit, 1u);
+    for (int v = 0; v < VOLUME_COUNT; ++v) ray.media.stride[v] *= tooMany;
+  }
+  return ray;
+}
+#endif
+
+void main() {
+  if (linearId() >= uint(params.cells.y)) return;
+  uint cell = uint(params.cells.x) + linearId();
+  uint place = uint(params.cells.w) + linearId();
+  if (params.knots.y == 0 && texels[place].count != NO_ROOM) return;
+  ivec2 texel = ivec2(int(cell) % view.size.x, int(cell) / view.size.x);
+  float opaque = texelFetch(opaqueDepth, texel, 0).r;
+
+  uint smokeCount = 0u;
+#ifdef VOLUME_COUNT
+  SmokeRay ray = smokeRay(texel, opaque);
+  SmokeMarch march = startOfMarch(ray);
+  SmokeMarch rest = march;  // after the knots that are kept
+  vec2 fixedKnot;
+  while (goesOn(march, ray)) {
+    if (marchStep(ray, march, fixedKnot)) {
+      if (smokeCount < KEPT) kept[smokeCount] = fixedKnot;
+      ++smokeCount;
+      if (smokeCount == KEPT) rest = march;
+    }
+  }
+#endif
+  uint count = smokeCount;
+  uint ownSteps = 0u;
+#ifdef SURFACES
+  run = listRun(uint(params.cells.z) + linearId());
+  count += 2u * run.count;
+#ifdef SHADOW_NOT_SELF_OBJECTS
+  for (uint i = 0u; i < run.count && walked < WALK_LIMIT; ++i) {
+    if ((objectOf(surfaceNode(i)) & uint(SHADOW_NOT_SELF)) != 0u) ++ownSteps;
+    ++walked;
+  }
+  walked = 0u;
+  if (ownSteps != 0u) ++ownSteps;  // their end
+#endif
+#endif
+
+  uint all = count + ownSteps;
+  uint first = all != 0u ? atomicAdd(counters.knots, all) : 0u;
+  if (all != 0u && first + all > uint(knots.length())) {
+    atomicAdd(counters.unplaced, all);
+    texels[place].count = NO_ROOM;
+    return;
+  }
+  texels[place] = ShadowTexel(uint(params.knots.x) + first, ownSteps != 0u ? count | SHADOW_OWN_STEPS : count, opaque);
+
+  knot = first;
+#ifdef SURFACES
+  firstKnot = first;
+  ownStep = first + count;
+#endif
+  vec2 before = vec2(0.0);
+#ifdef VOLUME_COUNT
+  for (uint i = 0u; i < min(smokeCount, KEPT); ++i) writeSmokeKnot(before, kept[i], opaque);
+  // A march that gave other knots this time could not write beyond its own.
+  uint left = smokeCount > KEPT ? smokeCount - KEPT : 0u;
+  while (left != 0u && goesOn(rest, ray)) {
+    if (marchStep(ray, rest, fixedKnot)) {
+      writeSmokeKnot(before, fixedKnot, opaque);
+      --left;
+    }
+  }
+  for (; left != 0u; --left) writeSmokeKnot(before, before, opaque);
+#endif
+  writeSurfaces(before, NOWHERE, before.y, opaque);
+#ifdef SURFACES
+#ifdef SHADOW_NOT_SELF_OBJECTS
+  if (ownSteps != 0u) knots[ownStep] = ShadowKnot(0.0, 0.0, 0.0, 0.0);
+#endif
+  if (walked >= WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
+  if (hidden != 0u) atomicAdd(counters.hidden, hidden);
+#endif
+}

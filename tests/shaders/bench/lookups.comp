@@ -1,0 +1,55 @@
+// 64 lookups of the transmittance a texel, along a march: by a walk over the linked list for each (WALK), or by a cursor
+// that moves forward along the run.
+#include "shaders/lists/banks.glsl"
+#include "shaders/lists/counting.glsl"
+#ifdef WALK
+#include "shaders/lists/links.glsl"
+layout(std430, binding = STORAGE_LIST_PAYLOADS) readonly buffer Payloads {
+  float drops[];
+};
+#else
+#include "shaders/lists/runs.glsl"
+#endif
+#include "shaders/shared/linear_id.glsl"
+#include "shaders/shared/view.h"
+
+layout(std140, binding = UNIFORM_VIEW) uniform View {
+  ViewParams view;
+};
+layout(std430, binding = STORAGE_COUNTERS) writeonly buffer Results {
+  float results[];
+};
+
+void main() {
+  uint cell = linearId();
+  if (cell >= uint(view.size.x * view.size.y)) return;
+  float sum = 0.0;
+#ifdef WALK
+  for (int step = 0; step < 64; ++step) {
+    float depth = (float(step) + 0.5) / 64.0;
+    float tau = 0.0;
+    uint node = listHeads[cell];
+    while (node != 0u && listLinks[0].links[node].depth <= depth) {
+      tau += drops[node];
+      node = listLinks[0].links[node].next;
+    }
+    sum += exp(-tau);
+  }
+#else
+  ListRun run = listRun(cell);
+  uint end = run.first + run.count;
+  uint node = run.first;
+  float next = node < end ? listDepth(node) : 2.0;
+  float tau = 0.0;
+  for (int step = 0; step < 64; ++step) {
+    float depth = (float(step) + 0.5) / 64.0;
+    while (next <= depth) {
+      tau += uintBitsToFloat(listPayloadWord(node));
+      ++node;
+      next = node < end ? listDepth(node) : 2.0;
+    }
+    sum += exp(-tau);
+  }
+#endif
+  results[cell] = sum;
+}

@@ -1,0 +1,43 @@
+// Every invocation stores one node into a hashed cell with a hashed depth: contention across lanes and workgroups. Nodes
+// are numbered through a permutation, so that their order changes with the seed of it.
+// PAYLOAD: as many words as it has; the first is the node's number, the others follow from it.
+#include "shaders/shared/bindings.h"
+#if PAYLOAD == 1
+#define LIST_PAYLOAD uint
+#elif PAYLOAD == 3
+struct Payload {
+  uint number;
+  uint twice;
+  uint inverse;
+};
+#define LIST_PAYLOAD Payload
+#endif
+#include "shaders/lists/insert.glsl"
+#include "shaders/shared/linear_id.glsl"
+
+layout(std140, binding = UNIFORM_PASS) uniform Pass {
+  uvec4 params;  // nodes, cells, distinct depths, seed
+  uvec4 more;    // x, y: node = (x * invocation + y) mod nodes; z: first invocation; w: invocations
+};
+
+uint hash(uint x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ x >> 16;
+}
+
+void main() {
+  if (linearId() >= more.w) return;
+  uint number = (more.x * (linearId() + more.z) + more.y) % params.x;
+  uint cell = hash(number + params.w) % params.y;
+  float depth = float(hash(number * 3u + params.w) % params.z) - 2.0;
+#if PAYLOAD == 1
+  listStore(cell, depth, number, number);
+#elif PAYLOAD == 3
+  listStore(cell, depth, number, Payload(number, 2u * number, ~number));
+#else
+  listStore(cell, depth, number);
+#endif
+}
