@@ -48,6 +48,7 @@ size_t sumOf(const std::vector<size_t>& values) {
 
 // Tries that 99 % of `insertions` did not exceed, from the tallies of those that took more than one.
 size_t p99Of(std::span<const uint32_t> spins, size_t insertions) {
+  if (insertions == 0) return 0;
   size_t above = insertions / 100;
   for (size_t i = spins.size(); i-- > 0;) {
     if (spins[i] > above) return size_t{2} << i;
