@@ -1,10 +1,14 @@
 #include "app/commands.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <memory>
 
 #include "app/validators.h"
 #include "base/version.h"
+#include "lists/strategy.h"
+#include "pipelines/aovs.h"
 #include "pipelines/quality.h"
 
 namespace sfumato::app {
@@ -130,6 +134,15 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Texels a side of a deep shadow map: 32 to 16384, else by --quality")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
+  add("--lists", options.lists,
+      "Build lists in this way: spinlock, lockfree, append or count; else what suits")
+      ->type_name("NAME")
+      ->check(oneOf(lists::strategyNames()));
+  add("--list-memory", options.listMemory, "Most that the lists at one time may take, else what there is")
+      ->type_name("BYTES|64K|256M|2G");
+  add("--on-overflow", options.onOverflow, "What then: grow, window (in parts, slower) or error; else window")
+      ->type_name("NAME")
+      ->check(oneOf(lists::onOverflowNames()));
   CLI::Option* reference =
       command
           .add_flag("--reference", options.reference,
@@ -142,7 +155,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
 }
 
 void addOutput(CLI::App& command, RenderOptions& options) {
-  const auto add = [&](const char* name, auto& value, const char* help) {
+  const auto add = [&](const char* name, auto& value, const std::string& help) {
     return command.add_option(name, value, help)->group("Output");
   };
   add("-o,--output", options.outputs,
@@ -153,6 +166,13 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   add("--exposure", options.exposureStops, "Brighten the .png: -30 to 30, else 0")
       ->type_name("STOPS")
       ->check(between(-30.0, 30.0));
+  add("--aov", options.aovs,
+      fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
+                  fmt::join(pipelines::aovNames(), ", ")))
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(oneOf(pipelines::aovNames()));
   add("--stats", options.statistics, "Write times, bytes and list figures as JSON")
       ->type_name("FILE.json")
       ->check(fileName());

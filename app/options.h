@@ -36,11 +36,15 @@ struct RenderOptions {
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
+  std::string lists;       // a strategy; empty: the device's
+  std::string listMemory;  // empty: what the device allows
+  std::string onOverflow = "window";
   bool reference = false;  // drawn by the CPU reference
   int samples = 1;         // a side of the pixel, of the reference
   double exposureStops = 0;
-  std::string statistics;  // path, empty: none
-  int repeat = 1;          // frames; the last one is written
+  std::vector<std::string> aovs;  // see pipelines/aovs.h
+  std::string statistics;         // path, empty: none
+  int repeat = 1;                 // frames; the last one is written
   bool dryRun = false;
 };
 

@@ -1,11 +1,11 @@
 // `sfumato render`: files to a scene, the scene to a frame, the frame to files.
 #include <fmt/format.h>
-#include <strings.h>
 
 #include <cmath>
 #include <filesystem>
 #include <set>
 
+#include "app/aov_files.h"
 #include "app/json_text.h"
 #include "app/options.h"
 #include "app/shot.h"
@@ -103,13 +103,16 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
   if (options.shadowResolution) quality.shadowResolution = *options.shadowResolution;
+  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
+  if (!options.listMemory.empty())
+    quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
+  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
   return quality;
 }
 
-image::Image exposed(image::Image image, double stops) {
+void expose(image::Image& image, double stops) {
   const auto factor = static_cast<float>(std::exp2(stops));
   for (float& value : image.values) value *= factor;
-  return image;
 }
 
 std::string numbers(const glm::dvec3& v) {
@@ -166,6 +169,7 @@ void checkOutputs(const RenderOptions& options) {
              .string());
   std::vector<std::string> outputs = options.outputs;
   for (const std::string& output : outputs) image::checkImageName(output);
+  for (const std::string& file : heatMapFiles(options)) outputs.push_back(file);
   if (!options.statistics.empty()) outputs.push_back(options.statistics);
   std::set<std::filesystem::path> places = {placeOf(options.scene)};
   for (const std::string& volume : options.volumes) places.insert(placeOf(volume));
@@ -201,14 +205,24 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
   base::print("frame    {}x{}, quality {}: step {} voxels, {}\n", options.width, options.height,
               options.quality, shot.quality.stepVoxels, wayOfDrawing(options, shot.quality));
   for (const std::string& output : options.outputs) base::print("output   {}\n", output);
+  for (const std::string& file : heatMapFiles(options)) base::print("output   {}\n", file);
   if (!options.statistics.empty()) base::print("output   {}\n", options.statistics);
 }
 
-void writeOutputs(const RenderOptions& options, const image::Image& radiance,
-                  const image::Metadata& settings) {
+// Radiance first; then it is exposed for the pictures in its own place, as images may be large.
+void writeOutputs(const RenderOptions& options, Drawn drawn, const image::Metadata& settings) {
+  writeHeatMaps(options, drawn.aovs, settings);
+  std::vector<image::Layer> layers;
+  for (auto& [aov, image] : drawn.aovs) layers.push_back(layerOf(aov, std::move(image)));
   for (const std::string& output : options.outputs) {
-    const bool display = strcasecmp(std::filesystem::path(output).extension().c_str(), ".png") == 0;
-    image::writeImage(output, display ? exposed(radiance, options.exposureStops) : radiance, settings);
+    if (!image::holdsLayers(output)) continue;
+    image::writeLayers(output, drawn.radiance, layers, settings);
+    base::note("wrote {}", output);
+  }
+  expose(drawn.radiance, options.exposureStops);
+  for (const std::string& output : options.outputs) {
+    if (image::holdsLayers(output)) continue;
+    image::writeImage(output, drawn.radiance, settings);
     base::note("wrote {}", output);
   }
 }
@@ -220,13 +234,16 @@ Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_
   std::vector<double> seconds;
   for (int i = 0; i < options.repeat; ++i) {
     const Clock::time_point frameStart = Clock::now();
-    drawn.radiance = pipelines::renderReference(shot.scene, shot.camera, shot.media,
-                                                {.width = options.width,
-                                                 .height = options.height,
-                                                 .samples = options.samples,
-                                                 .stepVoxels = shot.quality.stepVoxels,
-                                                 .shadowStepVoxels = shot.quality.stepVoxels,
-                                                 .showProgress = true});
+    pipelines::ReferenceFrame frame = pipelines::traceReference(shot.scene, shot.camera, shot.media,
+                                                                {.width = options.width,
+                                                                 .height = options.height,
+                                                                 .samples = options.samples,
+                                                                 .stepVoxels = shot.quality.stepVoxels,
+                                                                 .shadowStepVoxels = shot.quality.stepVoxels,
+                                                                 .showProgress = true,
+                                                                 .aovs = shot.aovs});
+    drawn.radiance = std::move(frame.radiance);
+    drawn.aovs = std::move(frame.aovs);
     seconds.push_back(secondsSince(frameStart));
   }
   base::note("frame: {:.2f} s", seconds.back());
@@ -247,6 +264,7 @@ Shot makeShot(const RenderOptions& options) {
     base::warn("{}: no lights: the picture will be black but for what glows", options.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
+  shot.aovs = wantedAovs(options);
   return shot;
 }
 
@@ -262,11 +280,12 @@ int render(const RenderOptions& options) {
     printPlan(options, shot);
     return 0;
   }
-  const Drawn drawn =
-      options.reference ? drawReference(options, shot, start) : drawOnGpu(options, shot, start);
-  writeOutputs(options, drawn.radiance, metadata(options, shot, drawn.device));
+  Drawn drawn = options.reference ? drawReference(options, shot, start) : drawOnGpu(options, shot, start);
+  const image::Metadata settings = metadata(options, shot, drawn.device);
+  const std::string statistics = std::move(drawn.statistics);
+  writeOutputs(options, std::move(drawn), settings);
   if (!options.statistics.empty()) {
-    base::writeFile(options.statistics, drawn.statistics);
+    base::writeFile(options.statistics, statistics);
     base::note("wrote {}", options.statistics);
   }
   return 0;

@@ -12,14 +12,16 @@ namespace {
 // Draws the frame --repeat times; the profiler keeps the times of the last one.
 pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& pipeline, const Shot& shot,
                             const RenderOptions& options, std::vector<double>& seconds) {
+  pipelines::Quality quality = shot.quality;
+  if (options.lists.empty()) quality.lists.strategy = lists::chooseStrategy(device);
   pipelines::Frame frame;
   const auto tiles = pipelines::tilesOf(options.width, options.height).size();
   base::Progress progress("rendering", options.repeat * static_cast<long>(tiles));
   for (int i = 0; i < options.repeat; ++i) {
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
-    frame = pipeline.render(shot.camera, options.width, options.height, shot.quality,
-                            {.onTile = [&] { progress.advance(); }});
+    frame = pipeline.render(shot.camera, options.width, options.height, quality,
+                            {.aovs = shot.aovs, .onTile = [&] { progress.advance(); }});
     seconds.push_back(secondsSince(start));
   }
   return frame;
@@ -53,7 +55,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   warnOfProblems(device, frame.statistics);
-  return {std::move(frame.radiance), device.names().renderer,
+  return {std::move(frame.radiance), std::move(frame.aovs), device.names().renderer,
           statisticsText(device, frame.statistics, times)};
 }
 

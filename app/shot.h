@@ -7,6 +7,7 @@
 
 #include "app/options.h"
 #include "image/image.h"
+#include "pipelines/aovs.h"
 #include "pipelines/quality.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
@@ -24,10 +25,12 @@ struct Shot {
   std::vector<volumes::Medium> media;
   scene::Camera camera;
   pipelines::Quality quality;
+  pipelines::AovSet aovs;  // that are wanted
 };
 
 struct Drawn {
   image::Image radiance;
+  pipelines::AovImages aovs;
   std::string device;      // who drew it, for the metadata
   std::string statistics;  // JSON
 };

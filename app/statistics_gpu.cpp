@@ -6,10 +6,25 @@ namespace sfumato::app {
 namespace {
 
 nlohmann::json toJson(const lists::ListStatistics& lists) {
-  return {{"cells", lists.cells},        {"nodes_demanded", lists.demand},
-          {"capacity", lists.capacity},  {"overflowed", lists.overflowed},
-          {"max_spins", lists.maxSpins}, {"builds", lists.builds},
-          {"windows", lists.windows},    {"bytes", lists.bytes}};
+  return {{"strategy", lists::nameOf(lists.strategy)},
+          {"cells", lists.cells},
+          {"nodes_predicted", lists.predicted},
+          {"nodes_demanded", lists.demand},
+          {"nodes_stored", lists.stored},
+          {"nodes_hidden", lists.hidden},
+          {"longest", lists.longest},
+          {"lengths", lists.lengths},
+          {"capacity", lists.capacity},
+          {"overflowed", lists.overflowed},
+          {"max_spins", lists.maxSpins},
+          {"p99_spins", lists.p99Spins},
+          {"retries", lists.retries},
+          {"builds", lists.builds},
+          {"windows", lists.windows},
+          {"distrusted", lists.distrusted},
+          {"node_bytes", lists.nodeBytes},
+          {"predicted_bytes", lists.predictedBytes},
+          {"bytes", lists.bytes}};
 }
 
 nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {

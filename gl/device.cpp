@@ -145,6 +145,25 @@ bool matches(const std::string& choice, size_t index, const DeviceNames& names) 
 
 }  // namespace
 
+// What OpenGL has had since 4.0 to 4.3, by the names of the extensions that it was before.
+constexpr const char* partsOf43[] = {"compute_shader",
+                                     "shader_storage_buffer_object",
+                                     "shader_image_load_store",
+                                     "shader_atomic_counters",
+                                     "framebuffer_no_attachments",
+                                     "program_interface_query",
+                                     "gpu_shader5",
+                                     "gpu_shader_fp64",
+                                     "vertex_attrib_64bit",
+                                     "tessellation_shader",
+                                     "sample_shading",
+                                     "shader_subroutine",
+                                     "texture_cube_map_array",
+                                     "texture_buffer_range",
+                                     "texture_view",
+                                     "viewport_array",
+                                     "transform_feedback3"};
+
 // A current context, ended and released with it.
 struct Device::Egl {
   EGLDisplay display = EGL_NO_DISPLAY;
@@ -181,10 +200,10 @@ struct Device::Egl {
       return eglProblem("eglChooseConfig");
     std::vector<EGLint> attributes;
     if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
-    if (robust && hasWord(eglQueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness")) {
+    if (robust) {  // drivers that cannot tell of resets refuse it
       std::vector<EGLint> robustly = attributes;
       robustly.insert(robustly.end(),
-                      {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT});
+                      {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_KHR, EGL_LOSE_CONTEXT_ON_RESET_KHR});
       context = createContext(config, 4, 3, robustly);
       tellsResets = context != EGL_NO_CONTEXT;
     }
@@ -212,8 +231,7 @@ struct Device::Egl {
     std::string answer = fmt::format(" ({} has {}.{}", glString(GL_RENDERER), epoxy_gl_version() / 10,
                                      epoxy_gl_version() % 10);
     const char* separator = ", without ";
-    for (const char* part : {"compute_shader", "shader_storage_buffer_object", "shader_image_load_store",
-                             "shader_atomic_counters", "framebuffer_no_attachments"})
+    for (const char* part : partsOf43)
       if (!epoxy_has_gl_extension((std::string("GL_ARB_") + part).c_str())) {
         answer += separator + std::string(part);
         separator = ", ";

@@ -28,7 +28,7 @@ struct DeviceNames {
 };
 
 // What our passes need at once; a device with less is refused.
-constexpr int storageBindingsUsed = 28;  // shaders/shared/bindings.h counts them
+constexpr int storageBindingsUsed = 25;  // shaders/shared/bindings.h counts them
 constexpr int storageBlocksUsed = 12;    // in one compute program, the resolve
 
 // The limits that matter here.

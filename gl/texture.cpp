@@ -39,6 +39,8 @@ FormatTraits traits(Format format) {
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case Format::SRGB8A8:
       return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::RGBA16F:
+      return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
     case Format::RGBA32UI:
       return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
     case Format::Depth32F:

@@ -17,7 +17,7 @@ namespace sfumato::gl {
 void deleteTexture(unsigned name);
 void deleteFramebuffer(unsigned name);
 
-enum class Format { R32F, R32UI, R32I, RGBA8, SRGB8A8, RGBA32UI, Depth32F };
+enum class Format { R32F, R32UI, R32I, RGBA8, SRGB8A8, RGBA16F, RGBA32UI, Depth32F };
 enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32F };
 enum class Filter { Nearest, Linear };
 enum class Minify {  // within a level, then between levels

@@ -67,23 +67,31 @@ std::array<uint8_t, 3> heatColour(double t) {
   return {encode(linear[0]), encode(linear[1]), encode(linear[2])};
 }
 
+Picture heatMap(const Image& values, double scale) {
+  Picture picture{values.width, values.height, {}};
+  const size_t pixels = static_cast<size_t>(values.width) * static_cast<size_t>(values.height);
+  picture.rgba.reserve(pixels * 4);
+  for (size_t i = 0; i < pixels; ++i) {
+    const double value = values.values[i * static_cast<size_t>(values.channels)];
+    const auto colour = heatColour(value == 0 ? 0 : value / scale);
+    picture.rgba.insert(picture.rgba.end(), colour.begin(), colour.end());
+    picture.rgba.push_back(255);
+  }
+  return picture;
+}
+
 Picture heatMap(const Image& image, const Image& reference, double scale) {
   checkComparable(image, reference);
   const int channels = std::min(image.channels, reference.channels);
-  Picture picture{image.width, image.height, {}};
+  Image largest(image.width, image.height, 1);
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      double largest = 0;
+    for (int x = 0; x < image.width; ++x)
       for (int c = 0; c < channels; ++c) {
-        const double difference =
-            std::abs(static_cast<double>(image.pixel(x, y)[c]) - reference.pixel(x, y)[c]);
-        if (difference > largest || std::isnan(difference)) largest = difference;
+        const float difference = std::abs(image.pixel(x, y)[c] - reference.pixel(x, y)[c]);
+        float& most = *largest.pixel(x, y);
+        if (difference > most || std::isnan(difference)) most = difference;
       }
-      const auto colour = heatColour(largest == 0 ? 0 : largest / scale);
-      picture.rgba.insert(picture.rgba.end(), colour.begin(), colour.end());
-      picture.rgba.push_back(255);
-    }
-  return picture;
+  return heatMap(largest, scale);
 }
 
 }  // namespace sfumato::image

@@ -13,6 +13,9 @@ namespace sfumato::image {
 // lightness in OKLab (Ottosson 2020), so that it reads in grey as well. Clamped outside; white for a NaN.
 std::array<uint8_t, 3> heatColour(double t);
 
+// The first channel of each pixel, as heatColour(value / scale).
+Picture heatMap(const Image& values, double scale);
+
 // The largest absolute difference of each pixel, over the channels that both have, as heatColour(difference /
 // scale). Throws as checkComparable().
 Picture heatMap(const Image& image, const Image& reference, double scale);

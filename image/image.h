@@ -32,6 +32,13 @@ struct Image {
   }
 };
 
+// Channels that belong together, beside the picture itself.
+struct Layer {
+  std::string name;
+  std::vector<std::string> channels;  // names of the image's, e.g. "X", "Y", "Z"
+  Image image;
+};
+
 // Name and value pairs that a file keeps beside its pixels.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 

@@ -13,6 +13,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "base/file.h"
 #include "image/metrics.h"
@@ -58,8 +59,13 @@ Ending endingOf(const fs::path& path) {
   fail(ExitCode::Usage, "{}: unknown image ending \"{}\": use .exr or .png", path.string(), ending);
 }
 
+constexpr int stripeRows = 64;  // that are converted at a time; zip packs 16 together
+
+// The pixels of rows first to first + count - 1, in the file's order of channels.
+using Rows = std::function<const void*(int first, int count)>;
+
 void write(const fs::path& path, OIIO::ImageSpec spec, const Metadata& metadata, OIIO::TypeDesc type,
-           const void* pixels) {
+           const Rows& rows) {
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
   spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day: the same run, other bytes
   // Into memory first: OpenImageIO does not say when a disk is full.
@@ -68,20 +74,54 @@ void write(const fs::path& path, OIIO::ImageSpec spec, const Metadata& metadata,
   spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &target);
   const auto output = OIIO::ImageOutput::create(path.string());
   if (!output) fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(OIIO::geterror()));
-  const bool written = output->open(path.string(), spec) && output->write_image(type, pixels);
+  bool written = output->open(path.string(), spec);
+  for (int y = 0; y < spec.height && written; y += stripeRows) {
+    const int count = std::min(stripeRows, spec.height - y);
+    written = output->write_scanlines(y, y + count, 0, type, rows(y, count));
+  }
   if (!output->close() || !written)
     fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(output->geterror()));
   base::writeFile(path, {reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size()});
 }
 
-void writeExr(const fs::path& path, const Image& image, const Metadata& metadata, bool fullFloat) {
-  OIIO::ImageSpec spec(image.width, image.height, image.channels,
-                       fullFloat ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF);
+// The channels of all images side by side, as `convert` makes them.
+void interleaveRows(std::span<const Image* const> images, int first, int count, std::vector<float>& pixels,
+                    const std::function<float(float value, bool isFirstImage)>& convert) {
+  pixels.clear();
+  for (int y = first; y < first + count; ++y)
+    for (int x = 0; x < images[0]->width; ++x)
+      for (const Image* image : images)
+        for (int c = 0; c < image->channels; ++c)
+          pixels.push_back(convert(image->pixel(x, y)[c], image == images[0]));
+}
+
+void writeExr(const fs::path& path, const Image& image, std::span<const Layer> layers,
+              const Metadata& metadata, bool fullFloat) {
+  const OIIO::TypeDesc type = fullFloat ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF;
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
   spec.attribute("compression", "zip");
-  std::vector<float> values = image.values;
-  if (!fullFloat)
-    for (float& value : values) value = std::clamp(value, -largestHalf, largestHalf);  // a NaN stays NaN
-  write(path, spec, metadata, OIIO::TypeDesc::FLOAT, values.data());
+  spec.channelformats.assign(static_cast<size_t>(image.channels), type);
+  std::vector<const Image*> images = {&image};
+  for (const Layer& layer : layers) {
+    base::check(layer.image.width == image.width && layer.image.height == image.height &&
+                    layer.image.channels == static_cast<int>(layer.channels.size()),
+                "layers have the image's size, and a name for each channel");
+    images.push_back(&layer.image);
+    for (const std::string& channel : layer.channels) {
+      spec.channelnames.push_back(layer.name + "." + channel);
+      spec.channelformats.push_back(OIIO::TypeDesc::FLOAT);
+    }
+  }
+  spec.nchannels = static_cast<int>(spec.channelnames.size());
+  if (layers.empty()) spec.channelformats.clear();
+  const auto convert = [&](float value, bool isHalf) {
+    return isHalf && !fullFloat ? std::clamp(value, -largestHalf, largestHalf) : value;  // a NaN stays NaN
+  };
+  std::vector<float> pixels;
+  write(path, spec, metadata, OIIO::TypeDesc::FLOAT, [&](int first, int count) {
+    interleaveRows(images, first, count, pixels, convert);
+    return pixels.data();
+  });
 }
 
 OIIO::ImageSpec pngSpec(int width, int height, int channels) {
@@ -92,13 +132,17 @@ OIIO::ImageSpec pngSpec(int width, int height, int channels) {
 }
 
 void writePng(const fs::path& path, const Image& image, const Metadata& metadata) {
-  const Image screen = toneMap(image);
-  std::vector<uint8_t> bytes(screen.values.size());
-  std::transform(screen.values.begin(), screen.values.end(), bytes.begin(), [](float value) {
-    return value > 0.f ? static_cast<uint8_t>(std::lround(std::min(value, 1.f) * 255.f)) : uint8_t{0};
-  });
+  Image stripe(image.width, stripeRows, image.channels);
+  std::vector<uint8_t> bytes(stripe.values.size());
   write(path, pngSpec(image.width, image.height, image.channels), metadata, OIIO::TypeDesc::UINT8,
-        bytes.data());
+        [&](int first, int count) {
+          std::copy(image.pixel(0, first), image.pixel(0, first + count), stripe.pixel(0, 0));
+          const Image screen = toneMap(stripe);
+          std::transform(screen.values.begin(), screen.values.end(), bytes.begin(), [](float value) {
+            return value > 0.f ? static_cast<uint8_t>(std::lround(std::min(value, 1.f) * 255.f)) : uint8_t{0};
+          });
+          return bytes.data();
+        });
 }
 
 // Red, green and blue; grey where there are fewer.
@@ -149,16 +193,15 @@ bool pngIsWhole(std::span<const std::byte> bytes) {
   return false;
 }
 
-}  // namespace
-
-Image readImage(const fs::path& path) {
+// Throws Input unless the file is a flat image of sane size.
+std::unique_ptr<OIIO::ImageInput> openImage(const fs::path& path) {
   std::error_code error;
   const uint64_t fileBytes = fs::file_size(path, error);
   if (error) fail(ExitCode::Input, "{}: cannot be read: {}", path.string(), error.message());
   if (fileBytes == 0) fail(ExitCode::Input, "{}: is empty: write it again", path.string());
 
   const OIIO::ImageSpec hints = readAsStored();
-  const auto input = OIIO::ImageInput::open(path.string(), &hints);
+  auto input = OIIO::ImageInput::open(path.string(), &hints);
   if (!input) fail(ExitCode::Input, "{}: cannot be read: {}", path.string(), oneLine(OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1 || spec.deep)
@@ -168,19 +211,60 @@ Image readImage(const fs::path& path) {
       pixels / maxPixelsPerByte > fileBytes)
     fail(ExitCode::Input, "{}: {} x {} x {} values are too many for this file: it is damaged or too large",
          path.string(), spec.width, spec.height, spec.nchannels);
+  return input;
+}
 
-  Image image(spec.width, spec.height, spec.nchannels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()))
-    fail(ExitCode::Input, "{}: is damaged: {}: write it again", path.string(), oneLine(input->geterror()));
+// Channels begin to end - 1.
+Image readChannels(OIIO::ImageInput& input, const fs::path& path, int begin, int end) {
+  Image image(input.spec().width, input.spec().height, end - begin);
+  if (!input.read_image(0, 0, begin, end, OIIO::TypeDesc::FLOAT, image.values.data()))
+    fail(ExitCode::Input, "{}: is damaged: {}: write it again", path.string(), oneLine(input.geterror()));
   return image;
+}
+
+}  // namespace
+
+Image readImage(const fs::path& path) {
+  const auto input = openImage(path);
+  const std::vector<std::string>& names = input->spec().channelnames;
+  const int channels = input->spec().nchannels;
+  // OpenImageIO puts R, G, B and A first.
+  const bool hasLayers = channels > 3 && names[0] == "R" && names[1] == "G" && names[2] == "B";
+  const int wanted = !hasLayers ? channels : names[3] == "A" ? 4 : 3;
+  return readChannels(*input, path, 0, wanted);
+}
+
+Layer readLayer(const fs::path& path, const std::string& name) {
+  const auto input = openImage(path);
+  const std::vector<std::string>& names = input->spec().channelnames;
+  const auto isOfLayer = [&](const std::string& channel) { return channel.starts_with(name + "."); };
+  const auto first = std::find_if(names.begin(), names.end(), isOfLayer);
+  const auto end = std::find_if_not(first, names.end(), isOfLayer);  // OpenImageIO keeps them together
+  if (first == end) fail(ExitCode::Input, "{}: has no layer \"{}\"", path.string(), name);
+  Layer layer{.name = name};
+  for (auto channel = first; channel != end; ++channel)
+    layer.channels.push_back(channel->substr(name.size() + 1));
+  layer.image = readChannels(*input, path, static_cast<int>(first - names.begin()),
+                             static_cast<int>(end - names.begin()));
+  return layer;
 }
 
 void writeImage(const fs::path& path, const Image& image, const Metadata& metadata, bool fullFloat) {
   base::check(image.channels == 3 || image.channels == 4, "an image to write has 3 or 4 channels");
   if (endingOf(path) == Ending::Exr)
-    writeExr(path, image, metadata, fullFloat);
+    writeExr(path, image, {}, metadata, fullFloat);
   else
     writePng(path, image, metadata);
+}
+
+void writeLayers(const fs::path& path, const Image& image, std::span<const Layer> layers,
+                 const Metadata& metadata) {
+  base::check(holdsLayers(path), "layers are written to .exr files");
+  writeExr(path, image, layers, metadata, false);
+}
+
+bool holdsLayers(const fs::path& path) {
+  return endingOf(path) == Ending::Exr;
 }
 
 void checkImageName(const fs::path& path) {
@@ -223,7 +307,7 @@ void checkPictureName(const fs::path& path) {
 void writePicture(const fs::path& path, const Picture& picture, const Metadata& metadata) {
   checkPictureName(path);
   write(path, pngSpec(picture.width, picture.height, 4), metadata, OIIO::TypeDesc::UINT8,
-        picture.rgba.data());
+        [&](int first, int) { return &picture.rgba[static_cast<size_t>(first) * picture.width * 4]; });
 }
 
 size_t perceptualFailures(const Image& image, const Image& reference) {
@@ -252,6 +336,18 @@ Image readImage(const std::filesystem::path& path) {
 }
 
 void writeImage(const std::filesystem::path& path, const Image&, const Metadata&, bool) {
+  failWithoutOpenImageIO(path.string());
+}
+
+void writeLayers(const std::filesystem::path& path, const Image&, std::span<const Layer>, const Metadata&) {
+  failWithoutOpenImageIO(path.string());
+}
+
+bool holdsLayers(const std::filesystem::path& path) {
+  failWithoutOpenImageIO(path.string());
+}
+
+Layer readLayer(const std::filesystem::path& path, const std::string&) {
   failWithoutOpenImageIO(path.string());
 }
 

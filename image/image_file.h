@@ -14,7 +14,8 @@
 namespace sfumato::image {
 
 // Reads any image that OpenImageIO knows as float, linear where the file says how it is encoded to be linear
-// (EXR), else as stored. Throws Input: missing, damaged, empty or larger than 2^31 values.
+// (EXR), else as stored; of one with layers only R, G, B and A. Throws Input: missing, damaged, empty or
+// larger than 2^31 values.
 Image readImage(const std::filesystem::path& path);
 
 // Writes channels R, G, B (and A for four channels) of a linear image; the ending chooses: `.exr` (half
@@ -24,6 +25,18 @@ Image readImage(const std::filesystem::path& path);
 // are a Usage error.
 void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                 bool fullFloat = false);
+
+// Writes an `.exr` as writeImage() does, with layers beside the image: channels named "layer.channel", as
+// floats.
+void writeLayers(const std::filesystem::path& path, const Image& image, std::span<const Layer> layers,
+                 const Metadata& metadata);
+
+// Whether writeLayers() can write the file: it ends in .exr. Throws as checkImageName().
+bool holdsLayers(const std::filesystem::path& path);
+
+// Reads one layer, its channels in the order of R, G, B or X, Y, Z. Throws Input as readImage(), and when
+// there is no such layer.
+Layer readLayer(const std::filesystem::path& path, const std::string& name);
 
 // Throws Usage unless writeImage knows the ending of `path`.
 void checkImageName(const std::filesystem::path& path);

@@ -23,7 +23,7 @@ namespace {
 
 constexpr size_t constantBytes =
     sizeof(ListCounters) + LIST_TALLIES * sizeof(uint32_t) + sizeof(ListWindow) + sizeof(ListStep);
-constexpr size_t firstLongClass = std::bit_width(size_t{LIST_SHORT_RUN}) + 1;
+constexpr size_t smallestSort = 4;  // nodes; a run of 2 is sorted as one of 4
 
 double mebibytes(size_t bytes) {
   return static_cast<double>(bytes) / 0x1p20;
@@ -88,7 +88,8 @@ size_t Lists::mostNodes(const gl::Device& device) const {
 }
 
 size_t Lists::cellBytes(size_t cells) const {
-  const size_t perCell = sizeof(ListRun) + (linked() ? 2 * sizeof(uint32_t) : 0);
+  // Half of them may be listed for the sort.
+  const size_t perCell = sizeof(ListRun) + sizeof(uint32_t) / 2 + (linked() ? 2 * sizeof(uint32_t) : 0);
   return cells * perCell + sumOf(scanLevels(cells)) * sizeof(uint32_t);
 }
 
@@ -97,9 +98,9 @@ size_t Lists::nodeBytes() const {
 }
 
 size_t Lists::bytesFor(size_t cells, size_t nodes) const {
-  const size_t longCells = nodes / (LIST_SHORT_RUN + 1);
+  const size_t sorted = nodes / (LIST_SHORT_RUN + 1);
   const size_t reserved = linked() ? sizeof(ListLink) + payloadBytes_ : 0;
-  return constantBytes + cellBytes(cells) + nodes * nodeBytes() + reserved + longCells * sizeof(uint32_t) +
+  return constantBytes + cellBytes(cells) + nodes * nodeBytes() + reserved + sorted * sizeof(uint32_t) +
          smallestBuffers;
 }
 
@@ -116,7 +117,7 @@ size_t Lists::nodesAllowed(const gl::Device& device, size_t cells) const {
 size_t Lists::allocatedBytes() const {
   size_t bytes = 0;
   for (const gl::Buffer* buffer : {&runs_, &sums_, &keys_, &payloads_, &heads_, &links_, &linkedPayloads_,
-                                   &longCells_, &counters_, &window_, &step_})
+                                   &sortedCells_, &counters_, &window_, &step_})
     bytes += buffer->bytes();
   return bytes;
 }
@@ -137,7 +138,7 @@ void Lists::reserveNodes(gl::Device& device, size_t nodes) {
   if (nodes <= capacity_ && keys_.bytes() > 0) return;
   // A little more than now, so that the next window or frame fits as well.
   capacity_ = std::min(nodes + nodes / 16, std::max(nodes, nodesAllowed(device, reservedCells_)));
-  for (gl::Buffer* buffer : {&keys_, &payloads_, &links_, &linkedPayloads_, &longCells_})
+  for (gl::Buffer* buffer : {&keys_, &payloads_, &links_, &linkedPayloads_, &sortedCells_})
     *buffer = gl::Buffer();  // the old pool goes before the new one comes
   const auto pool = [&](size_t count, size_t bytes) {
     return gl::Buffer(device, label_, count * bytes, gl::Buffer::Whole::Never);
@@ -388,78 +389,75 @@ bool Lists::unfinished() {
 
 // ---- Sorting
 
+// Runs by length, up to a power of 2, so that none waits for what a longer one has to do.
 void Lists::sort(gl::Device& device, size_t cells, const Counted& counted) {
   const Profiler::Scope time(device.profiler(), "sort");
   useWindow({0, cells});
   bindPool(device);
-  size_t longerThan = 1;
-  for (size_t size = 4; size <= LIST_SHORT_RUN; size *= 2) {
-    const size_t last = static_cast<size_t>(std::bit_width(size));
-    const bool any = counted.tallies[last] > 0 || (size == 4 && counted.tallies[last - 1] > 0);
-    if (any) {
-      gl::ShaderDefines defines = sortDefines(device, size, sortingNetwork(static_cast<int>(size)));
-      defines.emplace_back("LIST_SORT_LONGER_THAN", std::to_string(longerThan));
-      gl::dispatchLinear(device.program({"lists/sort.comp"}, defines), cells);
-    }
-    longerThan = size;
+  const std::vector<uint32_t> firsts = listSortedCells(device, cells, counted);
+  sortedCells_.bindStorage(STORAGE_LIST_SUMS);
+  size_t shorter = 1;
+  for (size_t i = 2; i < lengthClasses; ++i) {
+    const size_t length = size_t{1} << (i - 1);
+    const bool listed = firsts[i] != LIST_NOT_LISTED;
+    const size_t runs = listed ? counted.tallies[i] : cells;
+    if (counted.tallies[i] > 0)
+      sortRuns(device, {listed ? static_cast<int>(firsts[i]) : -1, runs, shorter, length});
+    shorter = length;
   }
-  if (counted.counters.longest > LIST_SHORT_RUN) sortLong(device, cells, counted);
-  gl::storageBarrier();
 }
 
-gl::ShaderDefines Lists::sortDefines(const gl::Device& device, size_t size, const Network& network) const {
+// Lists the cells of each length that few or only long runs have. Returns the place of each length's first.
+std::vector<uint32_t> Lists::listSortedCells(gl::Device& device, size_t cells, const Counted& counted) {
+  std::vector<uint32_t> firsts(lengthClasses, LIST_NOT_LISTED);
+  uint32_t listed = 0;
+  for (size_t i = 2; i < firsts.size(); ++i) {
+    const bool isLong = (size_t{1} << (i - 1)) > LIST_SHORT_RUN;
+    if (counted.tallies[i] == 0 || (!isLong && counted.tallies[i] > cells / 8)) continue;
+    firsts[i] = listed;
+    listed += counted.tallies[i];
+  }
+  if (sortedCells_.bytes() < std::max<size_t>(listed, 1) * sizeof(uint32_t)) {
+    sortedCells_ = gl::Buffer();
+    sortedCells_ = gl::Buffer(device, label_, listed * sizeof(uint32_t));
+  }
+  if (listed == 0) return firsts;
+  counters_.write(std::as_bytes(std::span(firsts)),
+                  sizeof(ListCounters) + LIST_TALLY_CURSORS * sizeof(uint32_t));
+  sortedCells_.bindStorage(STORAGE_LIST_SUMS);
+  gl::dispatchLinear(device.program({"lists/sorted_cells.comp"}), cells);
+  gl::storageBarrier();
+  return firsts;
+}
+
+void Lists::sortRuns(gl::Device& device, const RunsOfALength& runs) {
+  const auto step = [&](const gl::Program& program, size_t invocations, size_t block, size_t distance) {
+    useStep({{runs.first, static_cast<int>(runs.count), static_cast<int>(block), static_cast<int>(distance)},
+             {static_cast<int>(runs.length), static_cast<int>(runs.shorter), 0, 0}});
+    gl::dispatchLinear(program, runs.count * invocations);
+    gl::storageBarrier();
+  };
+  const size_t size = std::clamp<size_t>(runs.length, smallestSort, LIST_SHORT_RUN);
+  step(sortProgram(device, size, sortingNetwork(static_cast<int>(size))),
+       std::max(runs.length / size, size_t{1}), size, 0);
+  if (runs.length <= LIST_SHORT_RUN) return;
+  // Sorted pieces of a long run are merged, pairs of them at a time.
+  const gl::Program& merge = sortProgram(device, LIST_SHORT_RUN, mergingNetwork(LIST_SHORT_RUN));
+  const gl::Program& exchange = device.program({"lists/exchange.comp"}, poolDefines(device));
+  for (size_t block = 2 * LIST_SHORT_RUN; block <= runs.length; block *= 2) {
+    step(exchange, runs.length / 2, block, 0);
+    for (size_t distance = block / 4; distance >= LIST_SHORT_RUN; distance /= 2)
+      step(exchange, runs.length / 2, block, distance);
+    step(merge, runs.length / LIST_SHORT_RUN, block, 1);
+  }
+}
+
+const gl::Program& Lists::sortProgram(gl::Device& device, size_t size, const Network& network) const {
   gl::ShaderDefines defines = poolDefines(device);
   defines.emplace_back("LIST_SORT_SIZE", std::to_string(size));
   defines.emplace_back("LIST_NETWORK", networkText(network));
   defines.emplace_back("LIST_EACH", elementsText(static_cast<int>(size)));
-  return defines;
-}
-
-void Lists::sortLong(gl::Device& device, size_t cells, const Counted& counted) {
-  // Cells by the length of their runs, so that no invocation waits for what a longer run has.
-  std::vector<uint32_t> firsts(LIST_LENGTH_CLASSES, 0);
-  uint32_t longCells = 0;
-  for (size_t i = firstLongClass; i < firsts.size(); ++i) {
-    firsts[i] = longCells;
-    longCells += counted.tallies[i];
-  }
-  if (longCells_.bytes() < longCells * sizeof(uint32_t)) {
-    longCells_ = gl::Buffer();
-    longCells_ = gl::Buffer(device, label_, longCells * sizeof(uint32_t));
-  }
-  counters_.write(std::as_bytes(std::span(firsts)),
-                  sizeof(ListCounters) + LIST_TALLY_CURSORS * sizeof(uint32_t));
-  longCells_.bindStorage(STORAGE_LIST_SUMS);
-  gl::dispatchLinear(device.program({"lists/long_cells.comp"}), cells);
-  gl::storageBarrier();
-
-  const auto inRegisters = [&](const Network& network) -> const gl::Program& {
-    gl::ShaderDefines defines = sortDefines(device, LIST_SHORT_RUN, network);
-    defines.emplace_back("LIST_LONG", "1");
-    return device.program({"lists/sort.comp"}, defines);
-  };
-  const gl::Program& sortPieces = inRegisters(sortingNetwork(LIST_SHORT_RUN));
-  const gl::Program& mergePieces = inRegisters(mergingNetwork(LIST_SHORT_RUN));
-  const gl::Program& exchange = device.program({"lists/exchange.comp"}, poolDefines(device));
-  for (size_t i = firstLongClass; i < firsts.size(); ++i) {
-    const size_t runs = counted.tallies[i];
-    if (runs == 0) continue;
-    const size_t length = size_t{1} << (i - 1);
-    const auto step = [&](const gl::Program& program, size_t invocations, size_t block, size_t distance) {
-      useStep({{static_cast<int>(firsts[i]), static_cast<int>(runs), static_cast<int>(block),
-                static_cast<int>(distance)},
-               {static_cast<int>(length), 0, 0, 0}});
-      gl::dispatchLinear(program, runs * invocations);
-      gl::storageBarrier();
-    };
-    step(sortPieces, length / LIST_SHORT_RUN, LIST_SHORT_RUN, 0);
-    for (size_t block = 2 * LIST_SHORT_RUN; block <= length; block *= 2) {
-      step(exchange, length / 2, block, 0);
-      for (size_t distance = block / 4; distance >= LIST_SHORT_RUN; distance /= 2)
-        step(exchange, length / 2, block, distance);
-      step(mergePieces, length / LIST_SHORT_RUN, block, 1);
-    }
-  }
+  return device.program({"lists/sort.comp"}, defines);
 }
 
 // ---- The ways in

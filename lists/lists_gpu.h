@@ -74,6 +74,14 @@ class Lists {
     shared::ListCounters counters{};
     std::vector<uint32_t> tallies;
   };
+  // Runs of more than `shorter` and up to `length` nodes: `count` from place `first` in sortedCells_, or,
+  // where that is -1, some of `count` cells.
+  struct RunsOfALength {
+    int first;
+    size_t count;
+    size_t shorter;
+    size_t length;
+  };
   enum class RunOffset { BeforeItsNodes, BehindItsNodes };
   enum class Stored { All, PoolTooSmall, NotAll };
   static constexpr size_t smallestBuffers = 11 * 16;  // a buffer has at least 16 bytes
@@ -93,7 +101,6 @@ class Lists {
 
   gl::ShaderDefines bankDefines(const gl::Device& device) const;
   gl::ShaderDefines poolDefines(const gl::Device& device) const;
-  gl::ShaderDefines sortDefines(const gl::Device& device, size_t size, const Network& network) const;
   void bindNodes(const gl::Device& device, unsigned binding, const gl::Buffer& buffer, size_t bytes) const;
   void bindPool(const gl::Device& device) const;
   void useWindow(const Window& window);
@@ -111,7 +118,9 @@ class Lists {
   Stored link(gl::Device& device, const Window& window, const Draw& draw, Counted& counted, bool& sorted);
   bool unfinished();
   void sort(gl::Device& device, size_t cells, const Counted& counted);
-  void sortLong(gl::Device& device, size_t cells, const Counted& counted);
+  std::vector<uint32_t> listSortedCells(gl::Device& device, size_t cells, const Counted& counted);
+  void sortRuns(gl::Device& device, const RunsOfALength& runs);
+  const gl::Program& sortProgram(gl::Device& device, size_t size, const Network& network) const;
   [[noreturn]] void failOverBudget(gl::Device& device, size_t cells) const;
 
   std::string label_;
@@ -132,8 +141,8 @@ class Lists {
   gl::Buffer heads_;  // linked strategies: heads, then those of the overflow lists
   gl::Buffer links_;
   gl::Buffer linkedPayloads_;
-  gl::Buffer longCells_;  // cells whose runs are too long for one sort in registers, by length
-  gl::Buffer counters_;   // ListCounters, then the tallies
+  gl::Buffer sortedCells_;  // cells by the length of their runs
+  gl::Buffer counters_;     // ListCounters, then the tallies
   gl::Buffer window_;
   gl::Buffer step_;
   gl::BufferTexture runsView_;

@@ -1,9 +1,10 @@
 #include "pipelines/gbuffer_gpu.h"
 
+#include <algorithm>
+
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/resolve.h"
 
 namespace sfumato::pipelines {
 
@@ -17,18 +18,28 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
       gl::Texture(device, "G-buffer surface 1",
                   {.format = gl::Format::RGBA32UI, .size = size, .samples = samples}),
       gl::Texture(device, "G-buffer depth", {.format = gl::Format::R32F, .size = size, .samples = samples}),
+      std::nullopt,
       tile,
       {}};
   const gl::Texture depthTest(device, "depth test",
                               {.format = gl::Format::Depth32F, .size = size, .samples = samples});
-  const gl::Texture* colours[] = {&result.surface0, &result.surface1, &result.depth};
+  std::vector<const gl::Texture*> colours = {&result.surface0, &result.surface1, &result.depth};
+  gl::ShaderDefines defines;
+  if (inputs.baseColour) {
+    result.baseColour.emplace(
+        device, "G-buffer base colour",
+        gl::TextureDescription{.format = gl::Format::RGBA16F, .size = size, .samples = samples});
+    colours.push_back(&*result.baseColour);
+    defines.emplace_back("BASE_COLOUR", "1");
+  }
   const gl::Framebuffer target(colours, &depthTest);
   target.clearColour(0, glm::uvec4(0));
   target.clearColour(1, glm::uvec4(0));
   target.clearColour(2, glm::vec4(static_cast<float>(NOTHING_SEEN)));
+  if (inputs.baseColour) target.clearColour(3, glm::vec4(0.f));
   target.clearDepth(1.f);
   inputs.view.bindUniform(UNIFORM_VIEW);
-  gl::setDrawState({.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}),
+  gl::setDrawState({.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}, defines),
                     .target = &target,
                     .viewport = {-tile.x, -tile.y, inputs.width, inputs.height},
                     .depthTest = true});
@@ -37,6 +48,13 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   // A driver may give more than were asked for; any of them will do.
   if (result.samplePositions.size() > MAX_SAMPLES) result.samplePositions.resize(MAX_SAMPLES);
   return result;
+}
+
+void setSamples(shared::ResolveParams& params, const GBuffer& gbuffer) {
+  glm::vec2 positions[MAX_SAMPLES] = {};
+  std::copy(gbuffer.samplePositions.begin(), gbuffer.samplePositions.end(), positions);
+  params.samples01 = glm::vec4(positions[0], positions[1]);
+  params.samples23 = glm::vec4(positions[2], positions[3]);
 }
 
 }  // namespace sfumato::pipelines

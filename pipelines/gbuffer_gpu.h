@@ -10,15 +10,17 @@
 #include "gl/texture.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/tiles.h"
+#include "shaders/shared/resolve.h"
 
 namespace sfumato::pipelines {
 
 // Multisample textures: words 0-3 and 4-7 of shared::PackedSurface, and depth in metres along -Z of the view
-// (3e38: nothing). 36 bytes a sample; 40 while it is drawn.
+// (3e38: nothing). 36 bytes a sample, 8 more with the base colour; 4 more while it is drawn.
 struct GBuffer {
   gl::Texture surface0;
   gl::Texture surface1;
   gl::Texture depth;
+  std::optional<gl::Texture> baseColour;   // linear RGB, 0: nothing
   Tile tile;                               // of the image
   std::vector<glm::vec2> samplePositions;  // in the pixel, [0, 1]^2 from its lower left corner
 };
@@ -30,8 +32,12 @@ struct GBufferInputs {
   int height = 0;
   int samples = 1;           // a pixel
   std::optional<Tile> tile;  // as in the view; none: the whole image
+  bool baseColour = false;   // whether it is wanted
 };
 
 GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs);
+
+// Tells a pass where the samples of a pixel are.
+void setSamples(shared::ResolveParams& params, const GBuffer& gbuffer);
 
 }  // namespace sfumato::pipelines

@@ -6,10 +6,12 @@
 #include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
+#include "pipelines/aovs_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
+#include "shaders/shared/aovs.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/resolve.h"
 
@@ -69,10 +71,7 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   params.march = {static_cast<float>(inputs.quality.stepVoxels),
                   static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
   params.options = {1, inputs.quality.bilinearSmokeShadows ? 1 : 0, inputs.lights.directionalLights(), 0};
-  glm::vec2 positions[MAX_SAMPLES] = {};
-  std::copy(inputs.gbuffer.samplePositions.begin(), inputs.gbuffer.samplePositions.end(), positions);
-  params.samples01 = glm::vec4(positions[0], positions[1]);
-  params.samples23 = glm::vec4(positions[2], positions[3]);
+  setSamples(params, inputs.gbuffer);
   return params;
 }
 
@@ -103,31 +102,45 @@ Split splitPixels(gl::Device& device, const ResolveInputs& inputs) {
   }
 }
 
-// Rows of images count from the top, the GPU's from the bottom. A split pixel is the mean of its samples.
-void readRadiance(const gl::Buffer& rays, const Split& split, size_t rayCount, const ResolveInputs& inputs,
-                  image::Image& image) {
-  const Tile& window = inputs.window;
+// Radiance, and transmittance where that is wanted, of the window's pixels. A split pixel is the mean of its
+// samples.
+void readRays(const gl::Buffer& rays, const Split& split, size_t rayCount, const ResolveInputs& inputs,
+              Frame& frame) {
+  const size_t pixels = inputs.window.pixels();
   const auto states = rays.readValues<shared::RayState>(rayCount);
-  const auto groups = split.groups.readValues<uint32_t>(window.pixels());
+  const auto groups = split.groups.readValues<uint32_t>(pixels);
   const size_t further = inputs.gbuffer.samplePositions.size() - 1;
-  const auto width = static_cast<size_t>(window.width);
-  for (size_t pixel = 0; pixel < window.pixels(); ++pixel) {
-    glm::vec3 sum(states[pixel].radianceR, states[pixel].radianceG, states[pixel].radianceB);
-    if (groups[pixel] != 0) {
-      const size_t firstRay = window.pixels() + (groups[pixel] - 1) * further;
-      for (size_t ray = firstRay; ray < firstRay + further; ++ray)
-        sum += glm::vec3(states[ray].radianceR, states[ray].radianceG, states[ray].radianceB);
-      sum /= static_cast<float>(further + 1);
+  const auto read = [&](auto colourOf, image::Image& image) {
+    for (size_t pixel = 0; pixel < pixels; ++pixel) {
+      glm::vec3 sum = colourOf(states[pixel]);
+      if (groups[pixel] != 0) {
+        const size_t firstRay = pixels + (groups[pixel] - 1) * further;
+        for (size_t ray = firstRay; ray < firstRay + further; ++ray) sum += colourOf(states[ray]);
+        sum /= static_cast<float>(further + 1);
+      }
+      const glm::ivec2 place = inputs.window.placeOf(pixel, image.height);
+      std::copy_n(&sum.x, 3, image.pixel(place.x, place.y));
     }
-    const int x = window.x + static_cast<int>(pixel % width);
-    const int y = window.y + static_cast<int>(pixel / width);
-    std::copy_n(&sum.x, 3, image.pixel(x, image.height - 1 - y));
-  }
+  };
+  read([](const shared::RayState& ray) { return glm::vec3(ray.radianceR, ray.radianceG, ray.radianceB); },
+       frame.radiance);
+  const auto wanted = frame.aovs.find(Aov::Transmittance);
+  if (wanted != frame.aovs.end())
+    read(
+        [](const shared::RayState& ray) {
+          return glm::vec3(ray.throughputR, ray.throughputG, ray.throughputB);
+        },
+        wanted->second);
 }
 
-// That fit one buffer. The lists of as many empty pixels do, too.
 size_t mostRays(const gl::Device& device) {
   return static_cast<size_t>(device.limits().storageBlockBytes) / sizeof(shared::RayState);
+}
+
+// Of a window: whose rays and AOVs fit one buffer each. Empty lists take less.
+size_t mostPixels(const gl::Device& device) {
+  constexpr size_t bytes = std::max(sizeof(shared::RayState), sizeof(shared::AovPixel));
+  return static_cast<size_t>(device.limits().storageBlockBytes) / bytes;
 }
 
 // Lights the window's pixels into the frame; false when their rays do not fit one buffer.
@@ -167,7 +180,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   } while (counted.unfinished > 0);
   frame.statistics.splitPixels += split.count;
   frame.statistics.resolveDispatches += dispatches;
-  readRadiance(rays, split, rayCount, inputs, frame.radiance);
+  readRays(rays, split, rayCount, inputs, frame);
   return true;
 }
 
@@ -190,7 +203,7 @@ class TilePainter {
       : device_(device),
         inputs_(inputs),
         faces_(shadowFacesOf(inputs.shadows)),
-        windowPixels_(std::min(windowPixels, mostRays(device))),
+        windowPixels_(std::min(windowPixels, mostPixels(device))),
         view_(device, "camera view", sizeof(shared::ViewParams)),
         frame_(frame) {}
 
@@ -200,7 +213,9 @@ class TilePainter {
       const Profiler::Scope time(device_.profiler(), "opaque G-buffer");
       const int samples =
           std::clamp(inputs_.quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
-      return drawGBuffer(device_, {inputs_.geometry, view_, inputs_.width, inputs_.height, samples, tile});
+      const bool baseColour = frame_.aovs.contains(Aov::Albedo);
+      return drawGBuffer(device_,
+                         {inputs_.geometry, view_, inputs_.width, inputs_.height, samples, tile, baseColour});
     }();
     drawWindow(gbuffer, tile);
     ++frame_.statistics.tiles;
@@ -222,15 +237,22 @@ class TilePainter {
     useView(gbuffer.tile, window);
     const auto lightLists = [&] {
       const Profiler::Scope time(device_.profiler(), "light lists");
-      const lights::LightListInputs of{inputs_.lights, faces_,         view_,
-                                       inputs_.width,  inputs_.height, window.corners()};
+      const lights::LightListInputs of{inputs_.lights,       faces_,         view_,
+                                       inputs_.width,        inputs_.height, window.corners(),
+                                       inputs_.quality.lists};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
     if (!lightLists) return false;
     const auto surfaces = [&] {
       const Profiler::Scope time(device_.profiler(), "surface lists");
-      const SurfaceListInputs of{inputs_.geometry, view_, gbuffer, inputs_.width, inputs_.height, window};
+      const SurfaceListInputs of{inputs_.geometry,
+                                 view_,
+                                 gbuffer,
+                                 inputs_.width,
+                                 inputs_.height,
+                                 window,
+                                 remaining(lightLists->statistics().bytes)};
       return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
     }();
     if (!surfaces) return false;
@@ -240,9 +262,20 @@ class TilePainter {
                   inputs_.geometry, inputs_.quality, window},
                  frame_))
       return false;
+    const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
+    if (frame_.aovs.size() > ofRays)
+      drawAovs(device_, {view_, gbuffer, surfaces->lists, *lightLists, inputs_.shadows, window}, frame_.aovs);
     frame_.statistics.lights += lightLists->statistics();
     frame_.statistics.surfaces += surfaces->statistics;
     return true;
+  }
+
+  // What the lists of lights leave of the budget.
+  lists::ListOptions remaining(size_t used) const {
+    lists::ListOptions options = inputs_.quality.lists;
+    if (options.budgetBytes != 0)
+      options.budgetBytes = options.budgetBytes > used ? options.budgetBytes - used : 1;
+    return options;
   }
 
   void useView(const Tile& tile, const Tile& window) {
@@ -260,6 +293,29 @@ class TilePainter {
   Frame& frame_;
 };
 
+// The camera's view with clip planes close around the surfaces that are seen: it shows the same, and the
+// depth test tells more depths apart. `seen`: points whose hull holds those surfaces.
+shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
+                             const std::vector<glm::dvec3>& seen) {
+  shared::ViewParams view = scene::cameraView(camera, width, height);
+  if (seen.empty()) return view;
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  double nearest = scene::infinity;
+  double farthest = 0;
+  for (const glm::dvec3& p : seen) {
+    const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  constexpr double slack = 1e-3;
+  constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
+  scene::Camera tight = camera;
+  tight.nearDistance = std::max({camera.nearDistance, (1 - slack) * nearest, leastRatio * farthest});
+  tight.farDistance = std::min(camera.farDistance, (1 + slack) * farthest);
+  view.clipFromView = scene::cameraView(tight, width, height).clipFromView;
+  return view;
+}
+
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
@@ -274,10 +330,12 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
-  const deepshadow::Maps shadows = buildShadows(camera, static_cast<double>(width) / height, quality);
-  Frame frame{.radiance = image::Image(width, height, 3)};
+  const double aspect = static_cast<double>(width) / height;
+  const std::vector<glm::dvec3> seen = scene::visiblePoints(scene_, {}, camera, aspect);
+  const deepshadow::Maps shadows = buildShadows(camera, aspect, seen, quality);
+  Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
   const TileInputs inputs{scene_.lights, shadows, volumes_,
-                          geometry_,     quality, scene::cameraView(camera, width, height),
+                          geometry_,     quality, tightView(camera, width, height, seen),
                           width,         height};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
@@ -291,9 +349,11 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
 }
 
 deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, double aspect,
+                                                   const std::vector<glm::dvec3>& seen,
                                                    const Quality& quality) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  const auto receivers = scene::visiblePoints(scene_, mediaBoxes_, camera, aspect);
+  std::vector<glm::dvec3> receivers = scene::visiblePoints({}, mediaBoxes_, camera, aspect);
+  receivers.insert(receivers.end(), seen.begin(), seen.end());
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce(),
@@ -306,7 +366,8 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                                     .castingPoints = castingPoints,
                                     .resolution = quality.shadowResolution,
                                     .stepVoxels = quality.stepVoxels,
-                                    .error = quality.shadowError});
+                                    .error = quality.shadowError,
+                                    .lists = quality.lists});
 }
 
 }  // namespace sfumato::pipelines

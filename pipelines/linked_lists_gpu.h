@@ -14,6 +14,7 @@
 #include "image/image.h"
 #include "lights/light_lists_gpu.h"
 #include "lists/lists_gpu.h"
+#include "pipelines/aovs.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/quality.h"
 #include "pipelines/tiles.h"
@@ -35,6 +36,7 @@ struct FrameStatistics {
 };
 
 struct FrameOptions {
+  AovSet aovs;  // those that are not asked for cost nothing
   // Most pixels of a tile, and of a window: the part of a tile that gets lists and rays at a time. Windows
   // are halved where the device has no room. Only tests ask for less.
   size_t tilePixels = pipelines::tilePixels;
@@ -44,6 +46,7 @@ struct FrameOptions {
 
 struct Frame {
   image::Image radiance;  // linear RGB
+  AovImages aovs;
   FrameStatistics statistics;
 };
 
@@ -60,7 +63,9 @@ class LinkedListsPipeline {
                const FrameOptions& options = {});
 
  private:
-  deepshadow::Maps buildShadows(const scene::Camera& camera, double aspect, const Quality& quality) const;
+  // `seen`: points whose hull holds the surfaces that the camera sees.
+  deepshadow::Maps buildShadows(const scene::Camera& camera, double aspect,
+                                const std::vector<glm::dvec3>& seen, const Quality& quality) const;
 
   gl::Device& device_;
   const scene::Scene& scene_;

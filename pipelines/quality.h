@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "lists/strategy.h"
+
 namespace sfumato::pipelines {
 
 struct Quality {
@@ -13,6 +15,9 @@ struct Quality {
   double shadowError = 1.0 / 512;     // bound of the error of a deep shadow map's transmittance
   double throughputCutoff = 1e-3;     // a ray ends where less than this of what is behind would be seen
   bool bilinearSmokeShadows = false;  // four texels instead of the nearest for every lookup in smoke
+  // How all lists are built. The budget is for those that are there at one time: of a window of a light's
+  // shadow map, or of the lights and surfaces of a window of the image.
+  lists::ListOptions lists{};
 };
 
 // "draft", "medium", "high" or "reference".

@@ -120,6 +120,16 @@ class Geometry {
   Bvh bvh_;
 };
 
+// Of a ray of the camera, or of all rays of a pixel; pipelines/aovs.h says what each means.
+struct Seen {
+  glm::dvec3 radiance{0};
+  glm::dvec3 transmittance{1};
+  double distance = scene::infinity;  // along the ray; of a pixel the depth
+  glm::dvec3 normal{0};
+  glm::dvec3 albedo{0};
+  int fragments = 0;
+};
+
 // Follows light backwards from the camera.
 class Tracer {
  public:
@@ -129,25 +139,36 @@ class Tracer {
     for (const Medium& medium : media_) addBox(medium);
   }
 
-  // Radiance that arrives along the ray from what is between tMin and tMax.
-  glm::dvec3 radiance(const Ray& ray, double tMin, double tMax) const {
-    glm::dvec3 radiance(0);
-    glm::dvec3 transmittance(1);
+  // What arrives along the ray from what is between tMin and tMax.
+  Seen look(const Ray& ray, double tMin, double tMax) const {
+    Seen seen;
     double t = tMin;
     for (const Hit& hit : visibleHits(ray, tMin, tMax)) {
-      march(ray, t, hit.t, radiance, transmittance);
+      march(ray, t, hit.t, seen.radiance, seen.transmittance);
       t = hit.t;
       const SurfacePoint point = geometry_.pointAt(ray, hit);
       const Coverage coverage = coverageAt(scene_, geometry_.material(hit), point);
-      radiance += transmittance * leaving(ray, hit, point, coverage);
-      transmittance *= coverage.passing();
-      if (isNegligible(transmittance)) return radiance;
+      if (!isNegligible(seen.transmittance))
+        seen.radiance += seen.transmittance * leaving(ray, hit, point, coverage);
+      if (isOpaque(hit, coverage)) {
+        seen.distance = hit.t;
+        seen.normal = reflectorAt(scene_, geometry_.material(hit), point, coverage).normal;
+        seen.albedo = coverage.baseColour;
+        return seen;
+      }
+      if (coverage.alpha > 0) ++seen.fragments;
+      seen.transmittance *= coverage.passing();
     }
-    march(ray, t, tMax, radiance, transmittance);
-    return radiance;
+    march(ray, t, tMax, seen.radiance, seen.transmittance);
+    return seen;
   }
 
  private:
+  // Whether a surface ends what is seen, whatever else may let nothing through.
+  bool isOpaque(const Hit& hit, const Coverage& coverage) const {
+    return !geometry_.material(hit).translucent() && coverage.alpha > 0;
+  }
+
   void addBox(const Medium& medium) {
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
@@ -163,7 +184,7 @@ class Tracer {
       if (!geometry_.isSeen(hit, ray.direction)) return tMax;
       hits.push_back(hit);
       const Coverage coverage = coverageAt(scene_, geometry_.material(hit), geometry_.pointAt(ray, hit));
-      if (coverage.passing() == glm::dvec3(0)) tMax = std::min(tMax, hit.t);
+      if (isOpaque(hit, coverage)) tMax = std::min(tMax, hit.t);
       return tMax;
     };
     geometry_.bvh().forEachHit(ray, tMin, tMax, std::ref(visit));
@@ -278,10 +299,16 @@ class Tracer {
     double voxel = scene::infinity;
     for (const Medium* medium : media) voxel = std::min(voxel, volumes::voxelSize(medium->worldFromIndex));
     const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * voxel));
-    const double length = (tMax - tMin) / steps;
+    const double longest = (tMax - tMin) / steps;
+    const double shortest = longest / 256;
     std::vector<double> extinctions;  // of each medium
-    for (double step = 0; step < steps && !isNegligible(transmittance); ++step) {
-      const glm::dvec3 p = ray.at(tMin + (step + 0.5) * length);
+    double t = tMin;
+    while (t < tMax && !isNegligible(transmittance)) {
+      // Close to a lamp its irradiance changes within a voxel.
+      const double length =
+          std::min(std::clamp(0.1 * distanceToLamp(ray.at(t + 0.5 * shortest)), shortest, longest), tMax - t);
+      const glm::dvec3 p = ray.at(t + 0.5 * length);
+      t += length;
       extinctions.clear();
       double extinction = 0;
       for (const Medium* medium : media) {
@@ -294,6 +321,15 @@ class Tracer {
           transmittance * (1 - passing) / extinction * scattered(media, extinctions, p, ray.direction);
       transmittance *= passing;
     }
+  }
+
+  // To the nearest light that stands somewhere.
+  double distanceToLamp(const glm::dvec3& pWorld) const {
+    double nearest = scene::infinity;
+    for (const Light& light : scene_.lights)
+      if (light.type != lights::LightType::Directional)
+        nearest = std::min(nearest, glm::distance(light.position, pWorld));
+    return nearest;
   }
 
   // Light scattered at a point of the media to where the ray comes from, per metre.
@@ -321,48 +357,126 @@ class Tracer {
 };
 
 // What the camera sees through a point of the picture: x to the right and y up, -1 to 1 across it.
-glm::dvec3 trace(const Tracer& tracer, const Camera& camera, double x, double y, double aspect) {
+Seen trace(const Tracer& tracer, const Camera& camera, double x, double y, double aspect) {
   const auto world = [&](const glm::dvec4& view) { return glm::dvec3(camera.worldFromView * view); };
   if (camera.orthographic) {
     const glm::dvec4 origin(x * camera.yMagnitude * aspect, y * camera.yMagnitude, 0, 1);
-    return tracer.radiance({world(origin), world({0, 0, -1, 0})}, camera.nearDistance, camera.farDistance);
+    return tracer.look({world(origin), world({0, 0, -1, 0})}, camera.nearDistance, camera.farDistance);
   }
   const double slope = std::tan(camera.yfov / 2);
   const glm::dvec3 view(x * slope * aspect, y * slope, -1);
   const double tPerDepth = glm::length(view);
   const Ray ray{world({0, 0, 0, 1}), world(glm::dvec4(view / tPerDepth, 0))};
-  return tracer.radiance(ray, camera.nearDistance * tPerDepth, camera.farDistance * tPerDepth);
+  Seen seen = tracer.look(ray, camera.nearDistance * tPerDepth, camera.farDistance * tPerDepth);
+  seen.distance /= tPerDepth;
+  return seen;
+}
+
+// Adds a sample of `weight` to its pixel: the mean of colours, the nearest surface, the most fragments.
+void addSample(Seen& pixel, const Seen& sample, double weight) {
+  pixel.radiance += weight * sample.radiance;
+  pixel.transmittance += weight * sample.transmittance;
+  pixel.albedo += weight * sample.albedo;
+  pixel.fragments = std::max(pixel.fragments, sample.fragments);
+  if (sample.distance >= pixel.distance) return;
+  pixel.distance = sample.distance;
+  pixel.normal = sample.normal;
+}
+
+bool holds(const Medium& medium, const glm::dvec3& pWorld) {
+  const glm::dvec3 p(glm::inverse(volumes::worldFromUnit(medium)) * glm::dvec4(pWorld, 1));
+  return glm::all(glm::greaterThanEqual(p, glm::dvec3(0))) && glm::all(glm::lessThanEqual(p, glm::dvec3(1)));
+}
+
+// Where the lights stand that smoke shows as peaks, in the picture's coordinates of trace().
+std::vector<glm::dvec2> lampsInSmoke(const Scene& scene, std::span<const Medium> media, const Camera& camera,
+                                     double aspect) {
+  std::vector<glm::dvec2> seen;
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  for (const Light& light : scene.lights) {
+    const glm::dvec3 p(viewFromWorld * glm::dvec4(light.position, 1));
+    if (light.type == lights::LightType::Directional || p.z >= 0) continue;
+    if (std::ranges::none_of(media, [&](const Medium& m) { return holds(m, light.position); })) continue;
+    const double halfHeight = camera.orthographic ? camera.yMagnitude : -p.z * std::tan(camera.yfov / 2);
+    seen.push_back(glm::dvec2(p.x / aspect, p.y) / halfHeight);
+  }
+  return seen;
+}
+
+// Looks through the middle of a part of the picture, or where a lamp is near it through quarters of it,
+// `levels` times over: the light of a lamp in smoke grows as 1 / distance from where it is seen.
+void addPart(const std::function<Seen(const glm::dvec2&)>& look, std::span<const glm::dvec2> lamps,
+             const glm::dvec2& middle, const glm::dvec2& size, double weight, int levels, Seen& pixel) {
+  const bool lampIsNear = std::ranges::any_of(lamps, [&](const glm::dvec2& lamp) {
+    return glm::all(glm::lessThan(glm::abs(lamp - middle), 1.5 * size));
+  });
+  if (levels == 0 || !lampIsNear) return addSample(pixel, look(middle), weight);
+  for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}})
+    addPart(look, lamps, middle + 0.25 * corner * size, size / 2.0, weight / 4, levels - 1, pixel);
+}
+
+glm::vec3 valueOf(Aov aov, const Seen& pixel) {
+  switch (aov) {
+    case Aov::Depth:
+      return glm::vec3(pixel.distance);
+    case Aov::Normal:
+      return pixel.normal;
+    case Aov::Albedo:
+      return pixel.albedo;
+    case Aov::Transmittance:
+      return pixel.transmittance;
+    default:
+      return glm::vec3(pixel.fragments);
+  }
+}
+
+void store(const glm::vec3& value, image::Image& image, int x, int y) {
+  std::copy_n(&value.x, image.channels, image.pixel(x, y));
 }
 
 }  // namespace
 
 image::Image renderReference(const Scene& scene, const Camera& camera, std::span<const Medium> media,
                              const ReferenceOptions& options) {
+  return traceReference(scene, camera, media, options).radiance;
+}
+
+ReferenceFrame traceReference(const Scene& scene, const Camera& camera, std::span<const Medium> media,
+                              const ReferenceOptions& options) {
   base::check(options.stepVoxels > 0 && options.shadowStepVoxels > 0 && options.samples > 0,
               "the reference's steps and samples are positive");
+  base::check(std::ranges::none_of(options.aovs, isOfLists), "the reference has no lists");
   const Tracer tracer(scene, media, options);
   const double aspect = static_cast<double>(options.width) / options.height;
-  const int columns = options.width * options.samples;
-  const int rows = options.height * options.samples;
-  const auto pixel = [&](int px, int py) {
-    glm::dvec3 sum(0);
+  const auto lamps = lampsInSmoke(scene, media, camera, aspect);
+  constexpr int lampLevels = 6;
+  const glm::dvec2 size = 2.0 / (double(options.samples) * glm::dvec2(options.width, options.height));
+  const double weight = 1.0 / (options.samples * options.samples);
+  const auto lookThrough = [&](const glm::dvec2& p) { return trace(tracer, camera, p.x, p.y, aspect); };
+  const auto look = [&](int px, int py) {
+    Seen pixel{.transmittance = glm::dvec3(0)};
     for (int row = py * options.samples; row < (py + 1) * options.samples; ++row)
-      for (int column = px * options.samples; column < (px + 1) * options.samples; ++column)
-        sum += trace(tracer, camera, 2 * (column + 0.5) / columns - 1, 1 - 2 * (row + 0.5) / rows, aspect);
-    return sum / static_cast<double>(options.samples * options.samples);
+      for (int column = px * options.samples; column < (px + 1) * options.samples; ++column) {
+        const glm::dvec2 middle((column + 0.5) * size.x - 1, 1 - (row + 0.5) * size.y);
+        addPart(lookThrough, lamps, middle, size, weight, lampLevels, pixel);
+      }
+    return pixel;
   };
 
-  image::Image image(options.width, options.height, 3);
+  ReferenceFrame frame{image::Image(options.width, options.height, 3),
+                       emptyImages(options.aovs, options.width, options.height)};
   std::optional<base::Progress> progress;
   if (options.showProgress) progress.emplace("reference", options.height);
-  base::parallelFor(options.height, [&](long y) {
+  base::parallelFor(options.height, [&](long row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < options.width; ++x) {
-      const glm::vec3 value(pixel(x, static_cast<int>(y)));
-      std::copy_n(&value.x, 3, image.pixel(x, static_cast<int>(y)));
+      const Seen pixel = look(x, y);
+      store(pixel.radiance, frame.radiance, x, y);
+      for (auto& [aov, image] : frame.aovs) store(valueOf(aov, pixel), image, x, y);
     }
     if (progress) progress->advance();
   });
-  return image;
+  return frame;
 }
 
 }  // namespace sfumato::pipelines

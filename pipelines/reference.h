@@ -5,6 +5,7 @@
 #include <span>
 
 #include "image/image.h"
+#include "pipelines/aovs.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
 
@@ -13,10 +14,18 @@ namespace sfumato::pipelines {
 struct ReferenceOptions {
   int width = 64;
   int height = 48;
-  int samples = 1;  // per pixel side: 1 looks through the pixel's centre, n through n x n subpixel centres
+  // Per pixel side: 1 looks through the pixel's centre, n through n x n subpixel centres; more where smoke
+  // shows a lamp.
+  int samples = 1;
   double stepVoxels = 0.5;  // of the camera's march, in voxels
   double shadowStepVoxels = 0.5;
   bool showProgress = false;
+  AovSet aovs;  // none that isOfLists()
+};
+
+struct ReferenceFrame {
+  image::Image radiance;  // linear RGB
+  AovImages aovs;
 };
 
 // Linear RGB radiance. Per pixel: all surfaces along the ray, sorted, each lit (Lambert and GGX as glTF has
@@ -28,5 +37,9 @@ struct ReferenceOptions {
 // steps and samples are positive.
 image::Image renderReference(const scene::Scene& scene, const scene::Camera& camera,
                              std::span<const volumes::Medium> media, const ReferenceOptions& options);
+
+// The same with the AOVs that the options name.
+ReferenceFrame traceReference(const scene::Scene& scene, const scene::Camera& camera,
+                              std::span<const volumes::Medium> media, const ReferenceOptions& options);
 
 }  // namespace sfumato::pipelines

@@ -124,6 +124,8 @@ Reflector reflectorAt(const Scene& scene, const Material& material, const Surfac
 
   Reflector reflector;
   reflector.alpha = coverage.alpha;
+  const bool fromBehind = glm::dot(point.normal, point.geometricNormal) < 0;
+  reflector.normal = mappedNormal(scene, material, point) * (fromBehind ? -1.0 : 1.0);
   if (material.unlit) {
     reflector.emitted = coverage.alpha * coverage.baseColour;
     reflector.specular90 = 0;
@@ -135,8 +137,6 @@ Reflector reflectorAt(const Scene& scene, const Material& material, const Surfac
   reflector.specular90 = glm::mix(specular, 1.0, metallic);
   reflector.emitted = coverage.alpha * glm::dvec3(material.emissive) *
                       glm::dvec3(sample(scene, material.emissiveTexture, point, true));
-  const bool fromBehind = glm::dot(point.normal, point.geometricNormal) < 0;
-  reflector.normal = mappedNormal(scene, material, point) * (fromBehind ? -1.0 : 1.0);
   return reflector;
 }
 

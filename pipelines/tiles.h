@@ -17,6 +17,11 @@ struct Tile {
 
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
   glm::ivec4 corners() const { return {x, y, width, height}; }
+  // Where the tile's pixel of a number, row by row, is in an image whose rows count from the top.
+  glm::ivec2 placeOf(size_t number, int imageHeight) const {
+    const auto across = static_cast<size_t>(width);
+    return {x + static_cast<int>(number % across), imageHeight - 1 - y - static_cast<int>(number / across)};
+  }
 };
 
 // Most pixels of a tile: an image of 1920x1080 is one. With four samples a pixel its G-buffer takes 320 MiB.

@@ -41,13 +41,13 @@ const uint WALK_LIMIT = 30000u;
 #endif
 const float NOWHERE = 3e38;
 
-uint knot;                 // the next one
+uint knot = 0u;            // the next one
 uint walked = 0u;
 #ifdef SURFACES
-ListRun run;
+ListRun run = ListRun(0u, 0u);
 uint surface = 0u;         // of the run, the next one
-uint firstKnot;
-uint ownStep;              // the next one
+uint firstKnot = 0u;
+uint ownStep = 0u;         // the next one
 vec3 surfaceTau = vec3(0.0);
 uint hidden = 0u;
 

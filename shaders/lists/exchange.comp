@@ -1,14 +1,14 @@
 // One step of a bitonic sort of long runs (Batcher 1968), in place, two nodes an invocation. The first step of a block
 // compares mirrored nodes, so that all blocks ascend and runs of any length may end anywhere in them.
 #include "shaders/lists/counting.glsl"
-#include "shaders/lists/long_runs.glsl"
+#include "shaders/lists/sorted_runs.glsl"
 #include "shaders/lists/order.glsl"
 #include "shaders/lists/pool.glsl"
 #include "shaders/shared/linear_id.glsl"
 
 void main() {
   uint pairs = uint(sorting.more.x) / 2u;
-  ListRun run = longRun(linearId() / pairs);
+  ListRun run = sortedRun(linearId() / pairs);
   uint pair = linearId() % pairs;
   bool mirrored = sorting.step.w == 0;
   uint distance = mirrored ? uint(sorting.step.z) / 2u : uint(sorting.step.w);

@@ -1,13 +1,10 @@
-// Sorts up to LIST_SORT_SIZE nodes in registers, an invocation each: a run whose length is more than half of it, or with
-// LIST_LONG a piece of a longer run. LIST_NETWORK is a sequence of S(i, j), which puts elements i < j in order; LIST_EACH
+// Sorts LIST_SORT_SIZE nodes or fewer in registers, an invocation each: a run, or a piece of a longer one. LIST_NETWORK is a sequence of S(i, j), which puts elements i < j in order; LIST_EACH
 // is E(i) for every element (lists/sorting_network.h).
 #include "shaders/lists/counting.glsl"
 #include "shaders/lists/order.glsl"
 #include "shaders/lists/pool.glsl"
 #include "shaders/shared/linear_id.glsl"
-#ifdef LIST_LONG
-#include "shaders/lists/long_runs.glsl"
-#endif
+#include "shaders/lists/sorted_runs.glsl"
 
 int rank[LIST_SORT_SIZE];
 uint id[LIST_SORT_SIZE];
@@ -29,20 +26,12 @@ void order(inout int rankA, inout uint idA, inout uint fromA, inout int rankB, i
 #define S(i, j) order(rank[i], id[i], from[i], rank[j], id[j], from[j]);
 
 void main() {
-#ifdef LIST_LONG
-  uint pieces = uint(sorting.more.x) / uint(LIST_SORT_SIZE);
-  ListRun run = longRun(linearId() / pieces);
+  uint pieces = max(uint(sorting.more.x) / uint(LIST_SORT_SIZE), 1u);
+  ListRun run = sortedRun(linearId() / pieces);
   uint offset = linearId() % pieces * uint(LIST_SORT_SIZE);
   if (offset >= run.count) return;
   uint first = run.first + offset;
   uint count = min(run.count - offset, uint(LIST_SORT_SIZE));
-#else
-  uint cell = linearId();
-  if (cell >= uint(listWindow.range.y)) return;
-  uint first = listRuns[cell].first;
-  uint count = listRuns[cell].count;
-  if (count > uint(LIST_SORT_SIZE) || count <= uint(LIST_SORT_LONGER_THAN)) return;
-#endif
 
   // What is not there sorts behind everything.
 #define E(i)                                 \

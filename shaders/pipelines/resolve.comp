@@ -41,6 +41,8 @@ struct PixelRay {
   vec3 origin;
   vec3 perDepth;
   vec3 towardsViewer;
+  float metresPerDepth;
+  vec2 width;  // m, of the square that the ray stands for: x + y depth
   uint cell;  // of the light lists
 };
 
@@ -86,14 +88,16 @@ const int STEPS = 4;
 
 struct Steps {
   int count;
-  vec4 depth;
+  vec4 depth;                    // of its middle
+  vec4 size;                     // in depth
   vec4 scattered[VOLUME_COUNT];  // sigma_t of each medium times the length over which it is seen
   vec4 throughput[3];            // of the ray before the step: red, green, blue
 };
 
-void appendStep(inout Steps steps, float depth, float scattered[VOLUME_COUNT], vec3 throughput) {
+void appendStep(inout Steps steps, float depth, float size, float scattered[VOLUME_COUNT], vec3 throughput) {
   int k = steps.count;
   steps.depth[k] = depth;
+  steps.size[k] = size;
   for (int v = 0; v < VOLUME_COUNT; ++v) steps.scattered[v][k] = scattered[v];
   for (int c = 0; c < 3; ++c) steps.throughput[c][k] = throughput[c];
   ++steps.count;
@@ -107,6 +111,46 @@ vec3 turned(Steps steps, int k, vec3 direction, vec3 towardsViewer) {
     sum += volumes[v].albedoScale.rgb * (steps.scattered[v][k] * phase);
   }
   return sum;
+}
+
+// Integral of 1 / |p| over the rectangle between the origin and a corner, odd in both coordinates.
+float inverseDistance(vec2 corner) {
+  vec2 size = max(abs(corner), 1e-6);
+  return corner.x * asinh(corner.y / size.x) + corner.y * asinh(corner.x / size.y);
+}
+
+// How far a ray passes a lamp: the harmonic mean over the square that it stands for, whose middle is `miss` away, m.
+float distancePassed(PixelRay ray, vec3 miss, float depth) {
+  float width = ray.width.x + depth * ray.width.y;
+  float exact = length(miss);
+  if (exact > 4.0 * width) return exact;
+  vec2 middle = vec2(dot(miss, view.worldFromView[0].xyz), dot(miss, view.worldFromView[1].xyz)) / width;
+  float mean = inverseDistance(middle + vec2(0.5)) - inverseDistance(middle + vec2(0.5, -0.5)) -
+               inverseDistance(middle + vec2(-0.5, 0.5)) + inverseDistance(middle - vec2(0.5));
+  return width / mean;
+}
+
+// Mean over step k of what a lamp close by adds to it. Its irradiance peaks where the ray passes it, so that the step is
+// cut at equal angles as the lamp sees them (Kulla and Fajardo 2012).
+vec3 turnedFromNearby(LightData light, Steps steps, int k, PixelRay ray) {
+  const int CUTS = 4;
+  vec3 middle = ray.origin + steps.depth[k] * ray.perDepth;
+  float halfLength = 0.5 * steps.size[k] * ray.metresPerDepth;
+  float nearest = dot(middle - light.position.xyz, ray.towardsViewer);  // to where the ray passes the lamp
+  vec3 miss = middle - nearest * ray.towardsViewer - light.position.xyz;
+  float away = distancePassed(ray, miss, steps.depth[k]);
+  vec3 passed = length(miss) > 1e-3 * away ? away * normalize(miss) : away * view.worldFromView[0].xyz;
+  float first = atan((-halfLength - nearest) / away);
+  float last = atan((halfLength - nearest) / away);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < CUTS; ++i) {
+    float angle = mix(first, last, (float(i) + 0.5) / float(CUTS));
+    vec3 fromLight = passed - away * tan(angle) * ray.towardsViewer;
+    vec3 toLight;
+    vec3 irradiance = lightFrom(light, light.position.xyz + fromLight, toLight);
+    sum += irradiance * dot(fromLight, fromLight) * turned(steps, k, -toLight, ray.towardsViewer);
+  }
+  return sum * (last - first) / (float(CUTS) * 2.0 * halfLength * away);
 }
 
 // Radiance that a light adds to the ray over the steps between its front and back depth.
@@ -128,8 +172,13 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
     if (depth < front || depth > back) continue;
     vec3 p = ray.origin + depth * ray.perDepth;
     vec3 toLight;
-    vec3 irradiance = lightFrom(light, p, toLight);
-    if (maxComponent(irradiance) > 0.0) {
+    vec3 added = lightFrom(light, p, toLight);
+    if (maxComponent(added) > 0.0) {
+      float stepLength = steps.size[k] * ray.metresPerDepth;
+      vec3 distances = light.position.xyz - p;
+      bool nearby = light.indices.x != LIGHT_DIRECTIONAL && dot(distances, distances) < 16.0 * stepLength * stepLength;
+      if (nearby) added = turnedFromNearby(light, steps, k, ray);
+      else added *= turned(steps, k, -toLight, ray.towardsViewer);
       if (shadowed) {
         vec3 pFace = start + depth * perDepth;
         ShadowFace seen = face;
@@ -139,10 +188,10 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
           seen.texels.x += side * face.texels.y * face.texels.y;
           pFace = inCubeFace(side, p - light.position.xyz);
         }
-        irradiance *= shadowInSmoke(seen, pFace, params.options.y != 0);
+        added *= shadowInSmoke(seen, pFace, params.options.y != 0);
       }
       vec3 throughput = vec3(steps.throughput[0][k], steps.throughput[1][k], steps.throughput[2][k]);
-      sum += throughput * irradiance * turned(steps, k, -toLight, ray.towardsViewer);
+      sum += throughput * added;
     }
   }
   work += uint(8 * STEPS);
@@ -219,10 +268,12 @@ void main() {
   ray.origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
   ray.perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
   ray.towardsViewer = -normalize(ray.perDepth);
+  ray.metresPerDepth = length(ray.perDepth);
+  float width = 2.0 * view.halfExtent.y / float(view.size.y) * (place.split ? 0.5 : 1.0);
+  ray.width = orthographic ? vec2(width, 0.0) : vec2(0.0, width);
   ray.cell = lightCell(place.pixel, view.window);
 
 #ifdef SMOKE
-  float metresPerDepth = length(ray.perDepth);
   MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
 #endif
 
@@ -254,12 +305,12 @@ void main() {
         sigmaT += scattered[v];
       }
       if (sigmaT > 0.0) {
-        float tau = sigmaT * (to - depth) * metresPerDepth;
+        float tau = sigmaT * (to - depth) * ray.metresPerDepth;
         float passed = exp(-tau);
         // Integral of exp(-sigmaT s) over the step; its series where the difference would cancel.
         float seenLength = tau > 1e-3 ? (1.0 - passed) / sigmaT : (tau / sigmaT) * (1.0 - 0.5 * tau);
         for (int v = 0; v < VOLUME_COUNT; ++v) scattered[v] *= seenLength;
-        appendStep(steps, middle, scattered, throughput);
+        appendStep(steps, middle, to - depth, scattered, throughput);
         throughput *= passed;
         if (maxComponent(throughput) < params.march.y) limit = to;
       }

@@ -12,15 +12,10 @@
 #define STORAGE_MATERIALS 1  // MaterialData[]
 #define STORAGE_LIST_RUNS 2   // the lists that are built: see lists.h
 #define STORAGE_LIST_HEADS 3  // of linked lists
-#define STORAGE_LIST_SUMS 4   // of the scan; then the cells of long runs
+#define STORAGE_LIST_SUMS 4   // of the scan; then the cells that are sorted
 #define STORAGE_LIST_COUNTERS 5
-#define STORAGE_OLD_HEADS 25
-#define STORAGE_OLD_LINKS 26
-#define STORAGE_OLD_PAYLOADS 27
 #define STORAGE_LIGHTS 6            // LightData[]
-#define STORAGE_LIGHT_CELL_HEADS 7  // the light lists, for readers
-#define STORAGE_LIGHT_CELL_LINKS 8
-#define STORAGE_LIGHT_CELL_PAYLOADS 9
+#define STORAGE_AOVS 7              // AovPixel[]
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
 #define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise

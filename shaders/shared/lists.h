@@ -26,7 +26,6 @@ struct ListLink {
 struct ListCounters {
   uint demand;      // nodes asked of a linked pool, counted past its capacity
   uint overflowed;  // nodes that a bounded loop sent to the cell's overflow list
-  uint unmerged;    // overflowed nodes that no merge has put in their place yet
   uint maxSpins;    // most tries that one insertion took
   uint retries;     // tries beyond each insertion's first
   uint longest;     // nodes of the longest list
@@ -75,6 +74,7 @@ SHARED_END
 #define LIST_TALLY_CURSORS LIST_LENGTH_CLASSES
 #define LIST_TALLY_SPINS (2 * LIST_LENGTH_CLASSES)
 #define LIST_TALLIES (2 * LIST_LENGTH_CLASSES + LIST_SPIN_CLASSES)
+#define LIST_NOT_LISTED 0xffffffffu  // a cursor of lengths whose cells need no list
 // Runs up to this length are sorted in registers.
 #define LIST_SHORT_RUN 32
 // Cells that one invocation of the scan adds up.

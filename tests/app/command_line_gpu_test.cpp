@@ -225,12 +225,21 @@ TEST_F(CommandLineRender, SaysWhichDevicesThereAre) {
   }
 }
 
-TEST_F(CommandLineRender, DrawsAHugeImageOrSaysWhyNot) {
-  const auto before = listing(folder.path());
-  const Outcome outcome = run(draft({"scene.gltf", "-q", "-o", "out.exr"}, "16384x16384"));
-  if (outcome.exitCode == 0) return;
-  expectError(outcome, 5, "MiB");
-  EXPECT_EQ(listing(folder.path()), before);
+// Sides up to the largest, and more pixels than a tile has.
+TEST_F(CommandLineRender, DrawsImagesOfAnyShape) {
+  for (const auto& [width, height] :
+       {std::pair(16384, 64), {64, 16384}, {1, 16384}, {16384, 3}, {2500, 1700}}) {
+    const std::string resolution = std::to_string(width) + "x" + std::to_string(height);
+    SCOPED_TRACE(resolution);
+    render({"scene.gltf", "-q", "-o", "out.exr", "--stats", "out.json"}, resolution);
+    const image::Image image = picture("out.exr");
+    EXPECT_EQ(image.width, width);
+    EXPECT_EQ(image.height, height);
+    EXPECT_GT(sumOf(image), 0);
+    const Json figures = Json::parse(contentOf(path("out.json")));
+    EXPECT_EQ(figures["frame"]["tiles"], width * height > 2097152 ? 4 : 1);
+    EXPECT_EQ(figures["lists"]["surfaces"]["cells"], width * height);
+  }
 }
 
 TEST_F(CommandLineRender, LeavesNothingOnAFullDisk) {
@@ -409,6 +418,47 @@ TEST_F(CommandLineRender, WritesEveryOutputAndNothingElse) {
     EXPECT_EQ(picture(name).height, 48);
     EXPECT_GT(sumOf(picture(name)), 0);
   }
+}
+
+TEST_F(CommandLineRender, WritesAovsAsLayersAndHeatMaps) {
+  const auto before = listing(folder.path());
+  render({"scene.gltf", "-o", "out.exr", "-o", "out.png", "--aov", "depth,normal", "--aov",
+          "lights,fragments,shadow-nodes,depth"});
+  EXPECT_EQ(newNames(before), (std::set<std::string>{"out.exr", "out.png", "out.lights.png",
+                                                     "out.fragments.png", "out.shadow-nodes.png"}));
+  render({"scene.gltf", "-o", "plain.exr"});
+  EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
+  // The middle of the picture looks at (0.3, 0.3, 0) from 2 m away.
+  const image::Layer depth = image::readLayer(path("out.exr"), "depth");
+  EXPECT_EQ(depth.channels, std::vector<std::string>{"Z"});
+  EXPECT_NEAR(*depth.image.pixel(32, 24), 2, 1e-5);
+  EXPECT_TRUE(std::isinf(*depth.image.pixel(0, 0)));
+  EXPECT_NEAR(image::readLayer(path("out.exr"), "normal").image.pixel(32, 24)[2], 1, 1e-4);
+  EXPECT_EQ(*image::readLayer(path("out.exr"), "lights").image.pixel(32, 24), 1);
+  EXPECT_EQ(picture("out.lights.png").width, 64);
+  EXPECT_NE(contentOf(path("out.lights.png")).find("0 to 1"), std::string::npos);
+  EXPECT_EQ(run({"compare", "out.exr", "plain.exr"}).exitCode, 0);
+}
+
+TEST_F(CommandLineGpu, NamesTheAovThatCannotBe) {
+  expectErrors(
+      folder.path(),
+      {
+          {{"render", "scene.gltf", "-o", "out.exr", "--aov", "depth,foo"},
+           2,
+           "--aov: \"foo\" is none of depth, normal, albedo, transmittance, lights, fragments, "
+           "shadow-nodes"},
+          {{"render", "scene.gltf", "-o", "out.exr", "--aov", ""}, 2, "--aov: \"\" is none of depth"},
+          {{"render", "scene.gltf", "-o", "out.png", "--aov", "lights,depth"},
+           2,
+           "--aov depth: only an .exr holds it"},
+          {{"render", "scene.gltf", "-o", "a.png", "-o", "a.lights.png", "--aov", "lights"},
+           2,
+           "a.lights.png: is named twice"},
+          {{"render", "scene.gltf", "-o", "out.exr", "--reference", "--aov", "shadow-nodes"},
+           2,
+           "--aov shadow-nodes: is of lists that --reference does not have"},
+      });
 }
 
 TEST_F(CommandLineRender, DrawsOnePixel) {

@@ -82,6 +82,15 @@ TEST_F(ReferenceRender, SamplesSmoothEdges) {
   EXPECT_GT(between(picture("four.exr")), 10);
 }
 
+TEST_F(ReferenceRender, TellsDepthAndFragments) {
+  render({"scene.gltf", "--reference", "--aov", "depth,fragments", "-o", "out.exr", "-o", "out.png"});
+  const image::Image depth = image::readLayer(folder.path() / "out.exr", "depth").image;
+  EXPECT_NEAR(*depth.pixel(12, 8), 2, 1e-6);
+  EXPECT_TRUE(std::isinf(*depth.pixel(0, 0)));
+  EXPECT_EQ(*image::readLayer(folder.path() / "out.exr", "fragments").image.pixel(12, 8), 0);
+  EXPECT_EQ(picture("out.fragments.png").height, 16);
+}
+
 TEST_F(ReferenceRender, SamplesAreOfTheReference) {
   expectError(run({"scene.gltf", "--samples", "4", "-o", "out.exr"}), 2, "--samples requires --reference");
   expectError(run({"scene.gltf", "--reference", "--samples", "0", "-o", "out.exr"}), 2, "--samples: \"0\"");

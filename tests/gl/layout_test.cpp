@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "gl/program.h"
+#include "shaders/shared/aovs.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/lights.h"
@@ -40,6 +41,11 @@ const std::map<std::string, Layout>& cppLayouts() {
         {AT(ViewParams, viewFromWorld), AT(ViewParams, worldFromView), AT(ViewParams, clipFromView),
          AT(ViewParams, halfExtent), AT(ViewParams, depthRange), AT(ViewParams, size), AT(ViewParams, tile),
          AT(ViewParams, window)}}},
+      {"AovPixel",
+       {sizeof(shared::AovPixel),
+        {AT(AovPixel, depth), AT(AovPixel, normalX), AT(AovPixel, normalY), AT(AovPixel, normalZ),
+         AT(AovPixel, albedoR), AT(AovPixel, albedoG), AT(AovPixel, albedoB), AT(AovPixel, lights),
+         AT(AovPixel, fragments), AT(AovPixel, shadowNodes)}}},
       {"DrawData",
        {sizeof(shared::DrawData),
         {AT(DrawData, worldFromObject), AT(DrawData, normalFromObject), AT(DrawData, indices)}}},
@@ -63,7 +69,7 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ListLink", {sizeof(shared::ListLink), {AT(ListLink, depth), AT(ListLink, id), AT(ListLink, next)}}},
       {"ListCounters",
        {sizeof(shared::ListCounters),
-        {AT(ListCounters, demand), AT(ListCounters, overflowed), AT(ListCounters, unmerged),
+        {AT(ListCounters, demand), AT(ListCounters, overflowed),
          AT(ListCounters, maxSpins), AT(ListCounters, retries), AT(ListCounters, longest),
          AT(ListCounters, total), AT(ListCounters, unfinished), AT(ListCounters, broken),
          AT(ListCounters, unsorted)}}},

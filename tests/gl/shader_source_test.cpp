@@ -39,7 +39,7 @@ TEST_F(ShaderSourceFiles, AnIncludeCycleEnds) {
 }
 
 TEST_F(ShaderSourceFiles, TakesTheOverrideBeforeTheBuiltIn) {
-  EXPECT_NE(resolveShader("lists/insert.glsl", {}, folder_).text.find("listInsert"), std::string::npos);
+  EXPECT_NE(resolveShader("lists/insert.glsl", {}, folder_).text.find("listStore"), std::string::npos);
   fs::create_directories(folder_ / "lists");
   write("lists/insert.glsl", "mine\n");
   EXPECT_EQ(resolveShader("lists/insert.glsl", {}, folder_).text, "#version 430 core\n#line 1 0\nmine\n");

@@ -59,6 +59,17 @@ TEST(HeatMap, ShowsTheLargestDifferenceOfAPixel) {
   for (size_t i = 3; i < 12; i += 4) EXPECT_EQ(picture.rgba[i], 255);
 }
 
+TEST(HeatMap, ShowsTheFirstChannelOfValues) {
+  Image counts(2, 2, 1);
+  counts.values = {0, 3, 6, 12};
+  const Picture picture = heatMap(counts, 6);
+  EXPECT_EQ(at(picture, 0), heatColour(0));
+  EXPECT_EQ(at(picture, 1), heatColour(0.5));
+  EXPECT_EQ(at(picture, 2), heatColour(1));
+  EXPECT_EQ(at(picture, 3), heatColour(1));
+  EXPECT_EQ(at(heatMap(Image(1, 1, 1), 0), 0), heatColour(0));
+}
+
 TEST(HeatMap, OfEqualImagesIsBlack) {
   const Picture picture = heatMap(Image(2, 2, 3), Image(2, 2, 3), 0);
   for (size_t i = 0; i < 4; ++i) EXPECT_EQ(at(picture, i), heatColour(0));

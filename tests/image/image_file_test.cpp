@@ -104,6 +104,41 @@ TEST_F(ImageFile, FullFloatExrIsExact) {
   EXPECT_EQ(readImage(file("a.exr")).values, image.values);
 }
 
+TEST_F(ImageFile, LayersStandBesideThePicture) {
+  // More rows than are converted at a time, values that half would round, and one that it cannot hold.
+  const Image picture = ramp(5, 150, 3);
+  Layer depth{"depth", {"Z"}, ramp(5, 150, 1)};
+  depth.image.pixel(4, 149)[0] = std::numeric_limits<float>::infinity();
+  depth.image.pixel(3, 149)[0] = 1.0001f;
+  Layer normal{"normal", {"X", "Y", "Z"}, ramp(5, 150, 3)};
+  normal.image.pixel(2, 70)[1] = -0.70710678f;
+  const Layer count{"shadow_nodes", {"Y"}, ramp(5, 150, 1)};
+  const std::array layers = {normal, depth, count};
+  writeLayers(file("a.exr"), picture, layers, {});
+  EXPECT_EQ(readImage(file("a.exr")).channels, 3);
+  writeImage(file("b.exr"), picture, {});
+  EXPECT_EQ(readImage(file("a.exr")).values, readImage(file("b.exr")).values);
+  for (const Layer& layer : layers) {
+    const Layer read = readLayer(file("a.exr"), layer.name);
+    EXPECT_EQ(read.channels, layer.channels);
+    EXPECT_EQ(read.image.values, layer.image.values);
+  }
+  EXPECT_EQ(codeOf([&] { readLayer(file("a.exr"), "dep"); }, file("a.exr").string() + ": has no layer"),
+            input);
+  EXPECT_TRUE(holdsLayers("a.EXR"));
+  EXPECT_FALSE(holdsLayers("a.png"));
+}
+
+TEST_F(ImageFile, PicturesOfManyRowsAreWhole) {
+  Image tall(3, 200, 3);
+  for (int y = 0; y < 200; ++y) tall.pixel(1, y)[1] = static_cast<float>(y) / 400;
+  writeImage(file("a.png"), tall, {});
+  const Image read = readImage(file("a.png"));
+  for (int y = 1; y < 200; ++y) EXPECT_GE(read.pixel(1, y)[1], read.pixel(1, y - 1)[1]) << y;
+  EXPECT_GT(read.pixel(1, 199)[1], 0.7f);
+  EXPECT_LT(read.pixel(1, 60)[1], 0.5f);
+}
+
 TEST_F(ImageFile, ExrHeaderHoldsZipAndMetadata) {
   writeImage(file("a.exr"), ramp(2, 2, 3), {{"sfumato:scene", "two words"}});
   const auto bytes = base::readFile(file("a.exr"));
@@ -277,6 +312,9 @@ TEST(WithoutOpenImageIO, EveryFunctionSaysSo) {
   EXPECT_EQ(codeOf([] { readImage("a.exr"); }, "a.exr: "), input);
   EXPECT_EQ(codeOf([] { writeImage("a.exr", Image(1, 1, 3), {}); }, "a.exr: "), input);
   EXPECT_EQ(codeOf([] { checkImageName("a.exr"); }, "a.exr: "), input);
+  EXPECT_EQ(codeOf([] { writeLayers("a.exr", Image(1, 1, 3), {}, {}); }, "a.exr: "), input);
+  EXPECT_EQ(codeOf([] { holdsLayers("a.exr"); }, "a.exr: "), input);
+  EXPECT_EQ(codeOf([] { readLayer("a.exr", "depth"); }, "a.exr: "), input);
   EXPECT_EQ(codeOf([] { decodePicture({}, "a picture"); }, "a picture: "), input);
 }
 

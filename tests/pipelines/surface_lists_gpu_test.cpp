@@ -109,7 +109,7 @@ TEST_F(SurfaceListsGpu, HoldEveryFragmentBeforeTheOpaqueDepthAndNoOther) {
 }
 
 TEST_F(SurfaceListsGpu, HoldDeepListsOfEqualDepthsInFull) {
-  // 300 layers, three each of one depth; the pool starts at a quarter of a node a pixel and has to grow.
+  // 300 layers, three each of one depth.
   scene::Scene scene;
   for (int i = 0; i < 300; ++i) {
     const auto z = static_cast<float>(-(i / 3));
