@@ -297,6 +297,43 @@ CLI::App& addCommand(CLI::App& program, const char* name, const char* help, cons
   return command;
 }
 
+void addChecks(CLI::App& command, ValidateOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Checks");
+  };
+  add("--only", options.only, "Run only these checks or groups of checks")->type_name("NAME ...");
+  add("--skip", options.skip, "Leave these out")->type_name("NAME ...");
+  add("--scale", options.scale, "small or full, else small: seconds or minutes on software GL")
+      ->type_name("NAME")
+      ->check(oneOf({"small", "full"}));
+  add("--seed", options.seed, "Of all that is random: 0 to 2147483647, else 1")
+      ->type_name("N")
+      ->check(wholeBetween(0, std::numeric_limits<int>::max()));
+  add("--timeout", options.timeoutSeconds, "Then a check hangs: 0.1 to 86400, else 60, or 180 at full scale")
+      ->type_name("SECONDS")
+      ->check(between(0.1, 86400.0));
+  add("--jobs", options.jobs, "Checks at a time: 1 to 64, else 1")
+      ->type_name("N")
+      ->check(wholeBetween(1, 64));
+  command.add_flag("--list", options.list, "Say which checks there are, and what they do")->group("Checks");
+  command
+      .add_flag("--self-test", options.selfTest,
+                "Put faults into our own shaders, and show that the checks see each")
+      ->group("Checks");
+  add("--run-check", options.runCheck, "")
+      ->group("");  // not in the help: what the program starts itself with
+  add("--mutant", options.mutant, "")->group("");
+}
+
+void addReports(CLI::App& command, ValidateOptions& options) {
+  CLI::Option* json = command.add_flag("--json", options.json, "As JSON")->group("Output");
+  command.add_flag("--tap", options.tap, "As TAP, for test harnesses")->group("Output")->excludes(json);
+  command.add_option("--junit", options.junit, "Write JUnit XML as well, for CI systems")
+      ->type_name("FILE.xml")
+      ->group("Output")
+      ->check(fileName());
+}
+
 }  // namespace
 
 void addProgram(CLI::App& program, Verbosity& verbosity) {
@@ -371,6 +408,17 @@ CLI::App& addInfo(CLI::App& program, InfoOptions& options, Verbosity& verbosity)
   CLI::App& command = addCommand(
       program, "info", "Show the GL devices, the one in use, and what its limits mean", "[OPTIONS]");
   command.add_flag("--json", options.json, "As JSON")->group("General");
+  addDevice(command, options.device);
+  addFlags(command, verbosity);
+  return command;
+}
+
+CLI::App& addValidate(CLI::App& program, ValidateOptions& options, Verbosity& verbosity) {
+  CLI::App& command =
+      addCommand(program, "validate",
+                 "Check whether this GL driver can be trusted with atomics, lists and locks", "[OPTIONS]");
+  addChecks(command, options);
+  addReports(command, options);
   addDevice(command, options.device);
   addFlags(command, verbosity);
   return command;

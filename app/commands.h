@@ -19,5 +19,6 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
 CLI::App& addCompare(CLI::App& program, CompareOptions& options, Verbosity& verbosity);
 CLI::App& addStress(CLI::App& program, StressOptions& options, Verbosity& verbosity);
 CLI::App& addInfo(CLI::App& program, InfoOptions& options, Verbosity& verbosity);
+CLI::App& addValidate(CLI::App& program, ValidateOptions& options, Verbosity& verbosity);
 
 }  // namespace sfumato::app

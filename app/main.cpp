@@ -68,6 +68,8 @@ int run(int argc, char** argv) {
   const CLI::App& stressCommand = app::addStress(program, stressOptions, verbosity);
   app::InfoOptions infoOptions;
   const CLI::App& infoCommand = app::addInfo(program, infoOptions, verbosity);
+  app::ValidateOptions validateOptions;
+  const CLI::App& validateCommand = app::addValidate(program, validateOptions, verbosity);
 
   try {
     program.parse(argc, argv);
@@ -86,6 +88,7 @@ int run(int argc, char** argv) {
   if (compareCommand.parsed()) return app::compare(compareOptions);
   if (stressCommand.parsed()) return app::stress(stressOptions);
   if (infoCommand.parsed()) return app::info(infoOptions);
+  if (validateCommand.parsed()) return app::validate(validateOptions);
   failUsage(program, "no command");
 }
 

@@ -22,5 +22,10 @@ int stress(const StressOptions&) {
              "stress: this program was built without OpenGL: build it with SFUMATO_GL=ON");
 }
 
+int validate(const ValidateOptions&) {
+  base::fail(base::ExitCode::NoGl,
+             "validate: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+}
+
 }  // namespace sfumato::app
 #endif

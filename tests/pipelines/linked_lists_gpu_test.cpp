@@ -153,6 +153,23 @@ TEST_F(LinkedListsGpuFrames, TilesAreSeenNowhere) {
   }
 }
 
+// A red wall a centimetre before a blue one, far away, seen through a near plane that is all but in the eye.
+TEST_F(LinkedListsGpuFrames, TellsSurfacesApartWhateverTheNearPlane) {
+  for (const double nearDistance : {0.1, 1e-6, 1e-300}) {
+    KnownScene known;
+    const auto wall = [&](float z, const glm::vec3& colour) {
+      tests::add(known.scene, tests::quad({-200, -200, z}, {400, 0, 0}, {0, 400, 0}), tests::glowing(colour));
+    };
+    wall(-0.01f, {1, 0, 0});
+    wall(-0.02f, {0, 0, 1});
+    known.scene.cameras = {tests::perspectiveCamera({0, 0, 100}, {0, 0, 0}, 0.8)};
+    known.scene.cameras[0].nearDistance = nearDistance;
+    const Frame frame = draw(known, fine);
+    for (size_t i = 0; i < frame.radiance.values.size(); ++i)
+      ASSERT_EQ(frame.radiance.values[i], i % 3 == 0 ? 1.f : 0.f) << nearDistance;
+  }
+}
+
 TEST_F(LinkedListsGpuFrames, WindowsAreHalvedUntilTheirListsFit) {
   // 13 veils over 512 x 512 pixels: 3.4 million nodes of 48 bytes.
   KnownScene known;
