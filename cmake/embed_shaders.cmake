@@ -2,7 +2,7 @@
 function(sfumato_embed_shaders target)
   file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/shaders
        ${CMAKE_SOURCE_DIR}/shaders/*.glsl ${CMAKE_SOURCE_DIR}/shaders/*.h ${CMAKE_SOURCE_DIR}/shaders/*.vert
-       ${CMAKE_SOURCE_DIR}/shaders/*.frag ${CMAKE_SOURCE_DIR}/shaders/*.comp)
+       ${CMAKE_SOURCE_DIR}/shaders/*.geom ${CMAKE_SOURCE_DIR}/shaders/*.frag ${CMAKE_SOURCE_DIR}/shaders/*.comp)
   set(output ${CMAKE_BINARY_DIR}/embedded_shaders.cpp)
   list(TRANSFORM files PREPEND ${CMAKE_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE depends)
   add_custom_command(

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/error.h"
 
@@ -83,6 +84,16 @@ void Buffer::read(std::span<std::byte> bytes, size_t offset) const {
                      static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
+void Buffer::readMapped(std::span<std::byte> bytes) const {
+  base::check(bytes.size() <= bytes_, "a read stays inside its buffer");
+  glBindBuffer(GL_COPY_READ_BUFFER, name());
+  const void* mapped =
+      glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), GL_MAP_READ_BIT);
+  if (mapped == nullptr) fail(ExitCode::Memory, "{}: the driver cannot map it", label_);
+  std::memcpy(bytes.data(), mapped, bytes.size());
+  glUnmapBuffer(GL_COPY_READ_BUFFER);
+}
+
 void Buffer::bindStorage(unsigned binding) const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name());
 }
@@ -94,6 +105,25 @@ void Buffer::bindStorageRange(unsigned binding, size_t offset, size_t bytes) con
 
 void Buffer::bindUniform(unsigned binding) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, binding, name());
+}
+
+void Buffer::bindAtomicCounter(unsigned binding) const {
+  glBindBufferBase(GL_ATOMIC_COUNTER_BUFFER, binding, name());
+}
+
+MappedBuffer::MappedBuffer(const std::string& label, size_t bytes) : object_(createBuffer()) {
+  constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  const std::vector<std::byte> zeros(bytes);
+  const auto size = static_cast<GLsizeiptr>(bytes);
+  glBindBuffer(GL_COPY_READ_BUFFER, object_.name());
+  glBufferStorage(GL_COPY_READ_BUFFER, size, zeros.data(), access);
+  const void* mapped = glMapBufferRange(GL_COPY_READ_BUFFER, 0, size, access);
+  if (mapped == nullptr) fail(ExitCode::Memory, "{}: the driver cannot map it", label);
+  bytes_ = {static_cast<const std::byte*>(mapped), bytes};
+}
+
+void MappedBuffer::bindStorage(unsigned binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, object_.name());
 }
 
 }  // namespace sfumato::gl

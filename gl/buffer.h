@@ -55,16 +55,34 @@ class Buffer {
     return readValues<T>(1).front();
   }
 
+  // The same through a mapping.
+  void readMapped(std::span<std::byte> bytes) const;
+
   void bindStorage(unsigned binding) const;
   // `offset` is a multiple of 256.
   void bindStorageRange(unsigned binding, size_t offset, size_t bytes) const;
   void bindUniform(unsigned binding) const;
+  void bindAtomicCounter(unsigned binding) const;
 
  private:
   Object<deleteBuffer> object_;
   MemoryLedger* ledger_ = nullptr;
   std::string label_;
   size_t bytes_ = 0;
+};
+
+// A buffer that the CPU sees all the time: needs GL_ARB_buffer_storage. What shaders wrote is there after
+// barrierBefore(Reader::Mapped) and a fence.
+class MappedBuffer {
+ public:
+  // `bytes` of zeros. Throws Memory when the driver cannot map it.
+  MappedBuffer(const std::string& label, size_t bytes);
+  std::span<const std::byte> bytes() const { return bytes_; }
+  void bindStorage(unsigned binding) const;
+
+ private:
+  Object<deleteBuffer> object_;
+  std::span<const std::byte> bytes_;
 };
 
 }  // namespace sfumato::gl

@@ -86,9 +86,10 @@ void drawIndexed(const VertexArray& vertices, const IndexedRange& range) {
       static_cast<GLint>(range.firstVertex), static_cast<GLuint>(range.firstInstance));
 }
 
-void drawGenerated(const Device& device, size_t vertices, size_t instances) {
+void drawGenerated(const Device& device, size_t vertices, size_t instances, Primitive primitive) {
   glBindVertexArray(device.emptyVertexArray());
-  glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices), static_cast<GLsizei>(instances));
+  glDrawArraysInstanced(primitive == Primitive::Points ? GL_POINTS : GL_TRIANGLES, 0,
+                        static_cast<GLsizei>(vertices), static_cast<GLsizei>(instances));
 }
 
 void dispatch(const Program& program, glm::uvec3 groups) {
@@ -106,6 +107,57 @@ void dispatchLinear(const Program& program, size_t count) {
 void storageBarrier() {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                   GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void imageBarrier() {
+  glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+}
+
+void barrierBefore(Reader reader) {
+  constexpr GLbitfield bits[] = {GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT,
+                                 GL_ELEMENT_ARRAY_BARRIER_BIT,
+                                 GL_COMMAND_BARRIER_BIT,
+                                 GL_UNIFORM_BARRIER_BIT,
+                                 GL_TEXTURE_FETCH_BARRIER_BIT,
+                                 GL_PIXEL_BUFFER_BARRIER_BIT,
+                                 GL_BUFFER_UPDATE_BARRIER_BIT,
+                                 GL_SHADER_STORAGE_BARRIER_BIT,
+                                 GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT};
+  glMemoryBarrier(bits[static_cast<int>(reader)]);
+}
+
+void drawIndirect(const Device& device, const Buffer& commands) {
+  glBindVertexArray(device.emptyVertexArray());
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
+  glDrawArraysIndirect(GL_TRIANGLES, nullptr);
+}
+
+void dispatchIndirect(const Program& program, const Buffer& groups) {
+  glUseProgram(program.name());
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.name());
+  glDispatchComputeIndirect(0);
+}
+
+int64_t timestamp() {
+  GLint64 now = 0;
+  glGetInteger64v(GL_TIMESTAMP, &now);
+  return now;
+}
+
+Fence::Fence() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
+
+Fence::~Fence() {
+  glDeleteSync(static_cast<GLsync>(sync_));
+}
+
+bool Fence::wait(double seconds) const {
+  const GLenum state = glClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT,
+                                        static_cast<GLuint64>(seconds * 1e9));
+  return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+}
+
+void flush() {
+  glFlush();
 }
 
 }  // namespace sfumato::gl

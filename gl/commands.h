@@ -64,8 +64,10 @@ struct IndexedRange {
 };
 
 void drawIndexed(const VertexArray& vertices, const IndexedRange& range);
-// Triangles whose vertices the shader makes from gl_VertexID and gl_InstanceID.
-void drawGenerated(const Device& device, size_t vertices, size_t instances);
+enum class Primitive { Triangles, Points };
+// Primitives whose vertices the shader makes from gl_VertexID and gl_InstanceID.
+void drawGenerated(const Device& device, size_t vertices, size_t instances,
+                   Primitive primitive = Primitive::Triangles);
 
 // Runs a compute program on a grid of workgroups; zero in any direction does nothing.
 void dispatch(const Program& program, glm::uvec3 groups);
@@ -76,6 +78,50 @@ void dispatchLinear(const Program& program, size_t count);
 // What shaders wrote to storage buffers becomes visible to later shaders (as blocks and as buffer textures),
 // copies and reads.
 void storageBarrier();
+
+// What shaders wrote to images becomes visible to later image accesses and to Texture::read().
+void imageBarrier();
+
+// What reads a buffer, or a texture, that shaders have written to.
+enum class Reader {
+  VertexFetch,
+  IndexFetch,
+  IndirectCommand,
+  Uniform,
+  TextureFetch,
+  PixelUnpack,
+  Update,
+  Storage,
+  Mapped
+};
+// What shaders wrote becomes visible to this kind of reader. Update: copies, reads, writes and mappings of
+// buffers.
+void barrierBefore(Reader reader);
+
+// Triangles with vertices made by the shader; `commands` holds the counts: vertices, instances, 0, 0.
+void drawIndirect(const Device& device, const Buffer& commands);
+// Workgroups in x, y and z as the first three words of `groups` say.
+void dispatchIndirect(const Program& program, const Buffer& groups);
+
+// The GPU's clock, in nanoseconds.
+int64_t timestamp();
+
+// A point in the stream of commands, to be waited for.
+class Fence {
+ public:
+  Fence();
+  ~Fence();
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
+  // Whether all commands before it were done within so many seconds.
+  bool wait(double seconds) const;
+
+ private:
+  void* sync_ = nullptr;
+};
+
+// Starts what was asked for so far, without waiting for it.
+void flush();
 
 // Workgroups of `groupSize` that cover `count`.
 inline unsigned groupsFor(size_t count, unsigned groupSize) {

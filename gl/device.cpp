@@ -99,11 +99,21 @@ Limits readLimits() {
   limits.storageBindings = glInteger(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS);
   limits.computeStorageBlocks = glInteger(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
   limits.fragmentStorageBlocks = glInteger(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS);
+  limits.vertexStorageBlocks = glInteger(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS);
+  limits.geometryStorageBlocks = glInteger(GL_MAX_GEOMETRY_SHADER_STORAGE_BLOCKS);
+  limits.vertexImages = glInteger(GL_MAX_VERTEX_IMAGE_UNIFORMS);
+  limits.geometryImages = glInteger(GL_MAX_GEOMETRY_IMAGE_UNIFORMS);
+  limits.vertexCounters = glInteger(GL_MAX_VERTEX_ATOMIC_COUNTERS);
+  limits.geometryCounters = glInteger(GL_MAX_GEOMETRY_ATOMIC_COUNTERS);
   limits.texture2dSize = glInteger(GL_MAX_TEXTURE_SIZE);
   limits.texture3dSize = glInteger(GL_MAX_3D_TEXTURE_SIZE);
   limits.textureBufferTexels = glInteger<int64_t>(GL_MAX_TEXTURE_BUFFER_SIZE);
   limits.framebufferSize =
       std::min(glInteger(GL_MAX_FRAMEBUFFER_WIDTH), glInteger(GL_MAX_FRAMEBUFFER_HEIGHT));
+  limits.framebufferLayers = glInteger(GL_MAX_FRAMEBUFFER_LAYERS);
+  GLint viewport[2] = {0, 0};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  limits.viewportSize = std::min(viewport[0], viewport[1]);
   limits.samples =
       std::min({glInteger(GL_MAX_SAMPLES), glInteger(GL_MAX_INTEGER_SAMPLES),
                 glInteger(GL_MAX_COLOR_TEXTURE_SAMPLES), glInteger(GL_MAX_DEPTH_TEXTURE_SAMPLES)});
@@ -135,10 +145,30 @@ bool matches(const std::string& choice, size_t index, const DeviceNames& names) 
 
 }  // namespace
 
+// What OpenGL has had since 4.0 to 4.3, by the names of the extensions that it was before.
+constexpr const char* partsOf43[] = {"compute_shader",
+                                     "shader_storage_buffer_object",
+                                     "shader_image_load_store",
+                                     "shader_atomic_counters",
+                                     "framebuffer_no_attachments",
+                                     "program_interface_query",
+                                     "gpu_shader5",
+                                     "gpu_shader_fp64",
+                                     "vertex_attrib_64bit",
+                                     "tessellation_shader",
+                                     "sample_shading",
+                                     "shader_subroutine",
+                                     "texture_cube_map_array",
+                                     "texture_buffer_range",
+                                     "texture_view",
+                                     "viewport_array",
+                                     "transform_feedback3"};
+
 // A current context, ended and released with it.
 struct Device::Egl {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
+  bool tellsResets = false;
 
   ~Egl() {
     if (display == EGL_NO_DISPLAY) return;
@@ -148,7 +178,7 @@ struct Device::Egl {
   }
 
   // Makes a context on the candidate current. Returns the problem, empty when there is none.
-  std::string open(const Candidate& candidate, bool debug) {
+  std::string open(const Candidate& candidate, bool debug, bool robust = false) {
     // The EXT entry: libepoxy ends the program when the core one is called before an EGL 1.5 display exists.
     display = candidate.eglPlatform == 0
                   ? eglGetDisplay(EGL_DEFAULT_DISPLAY)
@@ -168,18 +198,45 @@ struct Device::Egl {
     EGLint configs = 0;
     if (!eglChooseConfig(display, configAttributes, &config, 1, &configs) || configs == 0)
       return eglProblem("eglChooseConfig");
-    std::vector<EGLint> contextAttributes = {
-        EGL_CONTEXT_MAJOR_VERSION,          4, EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-    if (debug) contextAttributes.insert(contextAttributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
-    contextAttributes.push_back(EGL_NONE);
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, contextAttributes.data());
-    if (context == EGL_NO_CONTEXT) return "no OpenGL 4.3 core context";
+    std::vector<EGLint> attributes;
+    if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+    if (robust) {  // drivers that cannot tell of resets refuse it
+      std::vector<EGLint> robustly = attributes;
+      robustly.insert(robustly.end(),
+                      {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_KHR, EGL_LOSE_CONTEXT_ON_RESET_KHR});
+      context = createContext(config, 4, 3, robustly);
+      tellsResets = context != EGL_NO_CONTEXT;
+    }
+    if (context == EGL_NO_CONTEXT) context = createContext(config, 4, 3, attributes);
+    if (context == EGL_NO_CONTEXT) return "no OpenGL 4.3 core context" + whatThereIs(config);
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
       return eglProblem("eglMakeCurrent");
     if (epoxy_gl_version() < 43)
       return fmt::format("only OpenGL {}.{}", epoxy_gl_version() / 10, epoxy_gl_version() % 10);
     return {};
+  }
+
+  EGLContext createContext(EGLConfig config, int major, int minor, std::vector<EGLint> attributes) const {
+    attributes.insert(attributes.end(),
+                      {EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION, minor,
+                       EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE});
+    return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+  }
+
+  // What a driver without 4.3 has instead, and which parts of 4.3 that we need are absent.
+  std::string whatThereIs(EGLConfig config) {
+    context = createContext(config, 3, 1, {});
+    if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
+      return {};
+    std::string answer = fmt::format(" ({} has {}.{}", glString(GL_RENDERER), epoxy_gl_version() / 10,
+                                     epoxy_gl_version() % 10);
+    const char* separator = ", without ";
+    for (const char* part : partsOf43)
+      if (!epoxy_has_gl_extension((std::string("GL_ARB_") + part).c_str())) {
+        answer += separator + std::string(part);
+        separator = ", ";
+      }
+    return answer + ")";
   }
 
   static DeviceNames names(const Candidate& candidate) {
@@ -210,10 +267,11 @@ Device::Device(const DeviceOptions& options)
   size_t index = 0;
   for (const Candidate& candidate : candidates()) {
     auto egl = std::make_unique<Egl>();
-    const std::string problem = egl->open(candidate, options.debug);
+    const std::string problem = egl->open(candidate, options.debug, options.examine);
     if (problem.empty()) {
       const DeviceNames names = Egl::names(candidate);
       if (matches(options.choice, index, names)) {
+        tellsResets_ = egl->tellsResets && epoxy_has_gl_extension("GL_KHR_robustness");
         egl_ = std::move(egl);
         names_ = names;
         break;
@@ -232,7 +290,8 @@ Device::Device(const DeviceOptions& options)
          answers.substr(1));
   }
   limits_ = readLimits();
-  if (limits_.storageBindings < storageBindingsUsed || limits_.computeStorageBlocks < storageBlocksUsed)
+  if (!options.examine &&
+      (limits_.storageBindings < storageBindingsUsed || limits_.computeStorageBlocks < storageBlocksUsed))
     fail(ExitCode::NoGl,
          "{}: {} storage bindings and {} storage blocks in a compute shader, {} and {} are needed: use "
          "--device",
@@ -247,6 +306,24 @@ Device::Device(const DeviceOptions& options)
 }
 
 Device::~Device() = default;
+
+bool Device::has(std::string_view extension) const {
+  return epoxy_has_gl_extension(std::string(extension).c_str());
+}
+
+Reset Device::resetStatus() const {
+  if (!tellsResets_) return Reset::None;
+  switch (glGetGraphicsResetStatusKHR()) {
+    case GL_NO_ERROR:
+      return Reset::None;
+    case GL_GUILTY_CONTEXT_RESET:
+      return Reset::Guilty;
+    case GL_INNOCENT_CONTEXT_RESET:
+      return Reset::Innocent;
+    default:
+      return Reset::Unknown;
+  }
+}
 
 const Program& Device::program(const std::vector<std::string>& names, const ShaderDefines& defines) {
   std::string key;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,9 +37,17 @@ struct Limits {
   int storageBindings = 0;
   int computeStorageBlocks = 0;
   int fragmentStorageBlocks = 0;
+  int vertexStorageBlocks = 0;
+  int geometryStorageBlocks = 0;
+  int vertexImages = 0;
+  int geometryImages = 0;
+  int vertexCounters = 0;
+  int geometryCounters = 0;
   int texture2dSize = 0;
   int texture3dSize = 0;
   int framebufferSize = 0;
+  int framebufferLayers = 0;
+  int viewportSize = 0;
   int64_t textureBufferTexels = 0;
   int samples = 0;  // that every texture format can have
   int timerBits = 0;
@@ -56,7 +65,12 @@ struct DeviceOptions {
       choice;  // "": the first that works; "N": by index; "software"; else part of its renderer's name
   bool debug = false;               // a debug context: the driver's messages are kept
   std::filesystem::path shaderDir;  // files there stand in for the built-in shaders of the same name
+  bool examine = false;  // for the validation: takes devices with less than our passes need as well, and asks
+                         // for a context that says when it was reset
 };
+
+// Whether the driver gave the context up: after that, nothing that it answers means anything.
+enum class Reset { None, Guilty, Innocent, Unknown };  // who is to blame, this context or another
 
 // Every device that EGL shows, in the order of the indices that DeviceOptions::choice takes.
 // Throws NoGl when there is no EGL at all.
@@ -74,6 +88,12 @@ class Device {
   const DeviceNames& names() const { return names_; }
   const Limits& limits() const { return limits_; }
   const std::filesystem::path& shaderDir() const { return shaderDir_; }
+
+  // Whether the driver has this extension, "GL_…".
+  bool has(std::string_view extension) const;
+  // Whether resetStatus() can be anything but None.
+  bool tellsResets() const { return tellsResets_; }
+  Reset resetStatus() const;
 
   MemoryLedger& memory() { return memory_; }
   Profiler& profiler() { return profiler_; }
@@ -94,6 +114,7 @@ class Device {
   DeviceNames names_;
   Limits limits_;
   std::filesystem::path shaderDir_;
+  bool tellsResets_ = false;
   std::unique_ptr<std::vector<std::string>> debugMessages_;
   unsigned emptyVertexArray_ = 0;
   std::map<std::string, std::unique_ptr<Program>> programs_;

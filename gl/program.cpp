@@ -21,6 +21,7 @@ void deleteShader(unsigned name) {
 
 GLenum stageOf(const std::string& name) {
   if (name.ends_with(".vert")) return GL_VERTEX_SHADER;
+  if (name.ends_with(".geom")) return GL_GEOMETRY_SHADER;
   if (name.ends_with(".frag")) return GL_FRAGMENT_SHADER;
   if (name.ends_with(".comp")) return GL_COMPUTE_SHADER;
   fail(ExitCode::Bug, "shader {}: its ending names no stage", name);
@@ -75,6 +76,15 @@ Program::Program(const Device& device, const std::vector<std::string>& names, co
   char log[600] = "";
   glGetProgramInfoLog(name(), sizeof log, nullptr, log);
   fail(ExitCode::Bug, "shader {}: does not link: {}", names.back(), log);
+}
+
+std::string compileProblem(const Device& device, const std::string& name, const ShaderDefines& defines) {
+  try {
+    compile(device, name, defines);
+    return {};
+  } catch (const base::Error& error) {
+    return error.what();
+  }
 }
 
 std::vector<BlockMember> Program::storageMembers() const {

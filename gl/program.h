@@ -22,8 +22,8 @@ struct BlockMember {
 class Program {
  public:
   Program() = default;
-  // Compiles the files (the stage is told by their endings .vert, .frag, .comp) and links them. Throws Bug
-  // with the compiler's first lines, places named by file; Usage when a file is missing.
+  // Compiles the files (the stage is told by their endings .vert, .geom, .frag, .comp) and links them. Throws
+  // Bug with the compiler's first lines, places named by file; Usage when a file is missing.
   Program(const Device& device, const std::vector<std::string>& names, const ShaderDefines& defines = {});
 
   unsigned name() const { return object_.name(); }
@@ -36,5 +36,8 @@ class Program {
  private:
   Object<deleteProgram> object_;
 };
+
+// What the compiler has against this shader by itself; empty when it takes it.
+std::string compileProblem(const Device& device, const std::string& name, const ShaderDefines& defines = {});
 
 }  // namespace sfumato::gl

@@ -31,6 +31,10 @@ FormatTraits traits(Format format) {
   switch (format) {
     case Format::R32F:
       return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case Format::R32UI:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case Format::R32I:
+      return {GL_R32I, GL_RED_INTEGER, GL_INT, 4};
     case Format::RGBA8:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case Format::SRGB8A8:
@@ -79,6 +83,7 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
                  std::span<const std::byte> texels)
     : ledger_(&device.memory()),
       label_(std::move(label)),
+      format_(description.format),
       target_(targetOf(description)),
       size_(description.size) {
   checkSize(device, label_, size_);
@@ -130,6 +135,7 @@ Texture& Texture::operator=(Texture&& other) noexcept {
   std::swap(object_, other.object_);
   std::swap(ledger_, other.ledger_);
   std::swap(label_, other.label_);
+  std::swap(format_, other.format_);
   std::swap(bytes_, other.bytes_);
   std::swap(target_, other.target_);
   std::swap(size_, other.size_);
@@ -143,6 +149,26 @@ Texture::~Texture() {
 void Texture::bind(unsigned unit) const {
   glActiveTexture(GL_TEXTURE0 + unit);
   glBindTexture(target_, name());
+}
+
+void Texture::bindImage(unsigned unit) const {
+  glBindImageTexture(unit, name(), 0, GL_TRUE, 0, GL_READ_WRITE, traits(format_).internal);
+}
+
+void Texture::copyFrom(const Buffer& texels) {
+  base::check(target_ == GL_TEXTURE_2D, "a buffer fills a 2D texture");
+  const FormatTraits format = traits(format_);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(target_, name());
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, texels.name());
+  glTexSubImage2D(target_, 0, 0, 0, size_.x, size_.y, format.layout, format.type, nullptr);
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
+void Texture::read(std::span<std::byte> texels) const {
+  base::check(texels.size() == bytes_, "a texture is read whole");
+  bind(0);
+  glGetTexImage(target_, 0, traits(format_).layout, traits(format_).type, texels.data());
 }
 
 BufferTexture::BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format) {
@@ -166,7 +192,7 @@ void BufferTexture::bind(unsigned unit) const {
   glBindTexture(GL_TEXTURE_BUFFER, object_.name());
 }
 
-Framebuffer::Framebuffer(glm::ivec2 size, int samples) : size_(size) {
+Framebuffer::Framebuffer(glm::ivec2 size, int samples, int layers) : size_(size) {
   GLuint name = 0;
   glGenFramebuffers(1, &name);
   object_ = Object<deleteFramebuffer>(name);
@@ -174,6 +200,7 @@ Framebuffer::Framebuffer(glm::ivec2 size, int samples) : size_(size) {
   glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, size.x);
   glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, size.y);
   glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_SAMPLES, samples > 1 ? samples : 0);
+  glFramebufferParameteri(GL_DRAW_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_LAYERS, layers);
   glDrawBuffer(GL_NONE);
   base::check(glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
               "a framebuffer is complete");

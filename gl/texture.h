@@ -17,7 +17,7 @@ namespace sfumato::gl {
 void deleteTexture(unsigned name);
 void deleteFramebuffer(unsigned name);
 
-enum class Format { R32F, RGBA8, SRGB8A8, RGBA16F, RGBA32UI, Depth32F };
+enum class Format { R32F, R32UI, R32I, RGBA8, SRGB8A8, RGBA16F, RGBA32UI, Depth32F };
 enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32F };
 enum class Filter { Nearest, Linear };
 enum class Minify {  // within a level, then between levels
@@ -54,11 +54,18 @@ class Texture {
   unsigned name() const { return object_.name(); }
   glm::ivec3 size() const { return size_; }
   void bind(unsigned unit) const;
+  // For image loads, stores and atomics of shaders, in the texture's own format.
+  void bindImage(unsigned unit) const;
+  // Takes all texels from the start of a buffer, in that order.
+  void copyFrom(const Buffer& texels);
+  // Reads back all texels, in the order in which the constructor takes them; not of multisample textures.
+  void read(std::span<std::byte> texels) const;
 
  private:
   Object<deleteTexture> object_;
   MemoryLedger* ledger_ = nullptr;
   std::string label_;
+  Format format_ = Format::RGBA8;
   size_t bytes_ = 0;
   unsigned target_ = 0;
   glm::ivec3 size_{0};
@@ -81,8 +88,9 @@ class BufferTexture {
 class Framebuffer {
  public:
   // Nothing attached: only side effects of fragments count. `size`: its width and height.
-  // `samples`: places in a pixel where coverage is told, 1: its centre.
-  explicit Framebuffer(glm::ivec2 size, int samples = 1);
+  // `samples`: places in a pixel where coverage is told, 1: its centre. `layers`: for gl_Layer, 0: not
+  // layered.
+  explicit Framebuffer(glm::ivec2 size, int samples = 1, int layers = 0);
   // Colour attachments in order, and a depth buffer or nullptr.
   Framebuffer(std::span<const Texture* const> colours, const Texture* depth);
 

@@ -287,7 +287,9 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
   if (stored == Stored::NotAll) {
     // What lost nodes once is not used again.
     ++statistics.distrusted;
-    base::check(statistics.distrusted < 3, "some strategy keeps every node of a list");
+    if (statistics.distrusted == 3)
+      base::fail(base::ExitCode::CheckFailed,
+                 "{}: every strategy loses nodes on this device: choose another one with --device", label_);
     useStrategy(linked() ? Strategy::Count : Strategy::Append);
     return buildPrefix(device, window, draw, wholly, true, statistics);
   }

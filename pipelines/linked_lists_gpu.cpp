@@ -293,6 +293,29 @@ class TilePainter {
   Frame& frame_;
 };
 
+// The camera's view with clip planes close around the surfaces that are seen: it shows the same, and the
+// depth test tells more depths apart. `seen`: points whose hull holds those surfaces.
+shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
+                             const std::vector<glm::dvec3>& seen) {
+  shared::ViewParams view = scene::cameraView(camera, width, height);
+  if (seen.empty()) return view;
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  double nearest = scene::infinity;
+  double farthest = 0;
+  for (const glm::dvec3& p : seen) {
+    const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  constexpr double slack = 1e-3;
+  constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
+  scene::Camera tight = camera;
+  tight.nearDistance = std::max({camera.nearDistance, (1 - slack) * nearest, leastRatio * farthest});
+  tight.farDistance = std::min(camera.farDistance, (1 + slack) * farthest);
+  view.clipFromView = scene::cameraView(tight, width, height).clipFromView;
+  return view;
+}
+
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
@@ -307,10 +330,12 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
-  const deepshadow::Maps shadows = buildShadows(camera, static_cast<double>(width) / height, quality);
+  const double aspect = static_cast<double>(width) / height;
+  const std::vector<glm::dvec3> seen = scene::visiblePoints(scene_, {}, camera, aspect);
+  const deepshadow::Maps shadows = buildShadows(camera, aspect, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
   const TileInputs inputs{scene_.lights, shadows, volumes_,
-                          geometry_,     quality, scene::cameraView(camera, width, height),
+                          geometry_,     quality, tightView(camera, width, height, seen),
                           width,         height};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
@@ -324,9 +349,11 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
 }
 
 deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, double aspect,
+                                                   const std::vector<glm::dvec3>& seen,
                                                    const Quality& quality) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  const auto receivers = scene::visiblePoints(scene_, mediaBoxes_, camera, aspect);
+  std::vector<glm::dvec3> receivers = scene::visiblePoints({}, mediaBoxes_, camera, aspect);
+  receivers.insert(receivers.end(), seen.begin(), seen.end());
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce(),

@@ -63,7 +63,9 @@ class LinkedListsPipeline {
                const FrameOptions& options = {});
 
  private:
-  deepshadow::Maps buildShadows(const scene::Camera& camera, double aspect, const Quality& quality) const;
+  // `seen`: points whose hull holds the surfaces that the camera sees.
+  deepshadow::Maps buildShadows(const scene::Camera& camera, double aspect,
+                                const std::vector<glm::dvec3>& seen, const Quality& quality) const;
 
   gl::Device& device_;
   const scene::Scene& scene_;

@@ -383,6 +383,38 @@ void addSample(Seen& pixel, const Seen& sample, double weight) {
   pixel.normal = sample.normal;
 }
 
+bool holds(const Medium& medium, const glm::dvec3& pWorld) {
+  const glm::dvec3 p(glm::inverse(volumes::worldFromUnit(medium)) * glm::dvec4(pWorld, 1));
+  return glm::all(glm::greaterThanEqual(p, glm::dvec3(0))) && glm::all(glm::lessThanEqual(p, glm::dvec3(1)));
+}
+
+// Where the lights stand that smoke shows as peaks, in the picture's coordinates of trace().
+std::vector<glm::dvec2> lampsInSmoke(const Scene& scene, std::span<const Medium> media, const Camera& camera,
+                                     double aspect) {
+  std::vector<glm::dvec2> seen;
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  for (const Light& light : scene.lights) {
+    const glm::dvec3 p(viewFromWorld * glm::dvec4(light.position, 1));
+    if (light.type == lights::LightType::Directional || p.z >= 0) continue;
+    if (std::ranges::none_of(media, [&](const Medium& m) { return holds(m, light.position); })) continue;
+    const double halfHeight = camera.orthographic ? camera.yMagnitude : -p.z * std::tan(camera.yfov / 2);
+    seen.push_back(glm::dvec2(p.x / aspect, p.y) / halfHeight);
+  }
+  return seen;
+}
+
+// Looks through the middle of a part of the picture, or where a lamp is near it through quarters of it,
+// `levels` times over: the light of a lamp in smoke grows as 1 / distance from where it is seen.
+void addPart(const std::function<Seen(const glm::dvec2&)>& look, std::span<const glm::dvec2> lamps,
+             const glm::dvec2& middle, const glm::dvec2& size, double weight, int levels, Seen& pixel) {
+  const bool lampIsNear = std::ranges::any_of(lamps, [&](const glm::dvec2& lamp) {
+    return glm::all(glm::lessThan(glm::abs(lamp - middle), 1.5 * size));
+  });
+  if (levels == 0 || !lampIsNear) return addSample(pixel, look(middle), weight);
+  for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}})
+    addPart(look, lamps, middle + 0.25 * corner * size, size / 2.0, weight / 4, levels - 1, pixel);
+}
+
 glm::vec3 valueOf(Aov aov, const Seen& pixel) {
   switch (aov) {
     case Aov::Depth:
@@ -416,16 +448,18 @@ ReferenceFrame traceReference(const Scene& scene, const Camera& camera, std::spa
   base::check(std::ranges::none_of(options.aovs, isOfLists), "the reference has no lists");
   const Tracer tracer(scene, media, options);
   const double aspect = static_cast<double>(options.width) / options.height;
-  const int columns = options.width * options.samples;
-  const int rows = options.height * options.samples;
+  const auto lamps = lampsInSmoke(scene, media, camera, aspect);
+  constexpr int lampLevels = 6;
+  const glm::dvec2 size = 2.0 / (double(options.samples) * glm::dvec2(options.width, options.height));
   const double weight = 1.0 / (options.samples * options.samples);
+  const auto lookThrough = [&](const glm::dvec2& p) { return trace(tracer, camera, p.x, p.y, aspect); };
   const auto look = [&](int px, int py) {
     Seen pixel{.transmittance = glm::dvec3(0)};
     for (int row = py * options.samples; row < (py + 1) * options.samples; ++row)
-      for (int column = px * options.samples; column < (px + 1) * options.samples; ++column)
-        addSample(pixel,
-                  trace(tracer, camera, 2 * (column + 0.5) / columns - 1, 1 - 2 * (row + 0.5) / rows, aspect),
-                  weight);
+      for (int column = px * options.samples; column < (px + 1) * options.samples; ++column) {
+        const glm::dvec2 middle((column + 0.5) * size.x - 1, 1 - (row + 0.5) * size.y);
+        addPart(lookThrough, lamps, middle, size, weight, lampLevels, pixel);
+      }
     return pixel;
   };
 

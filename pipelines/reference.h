@@ -14,7 +14,9 @@ namespace sfumato::pipelines {
 struct ReferenceOptions {
   int width = 64;
   int height = 48;
-  int samples = 1;  // per pixel side: 1 looks through the pixel's centre, n through n x n subpixel centres
+  // Per pixel side: 1 looks through the pixel's centre, n through n x n subpixel centres; more where smoke
+  // shows a lamp.
+  int samples = 1;
   double stepVoxels = 0.5;  // of the camera's march, in voxels
   double shadowStepVoxels = 0.5;
   bool showProgress = false;

@@ -25,6 +25,7 @@
 #include "scene/geometry.h"
 #include "scene/gltf_json.h"
 #include "scene/printable.h"
+#include "scene/visible_hull.h"
 
 namespace sfumato::scene {
 
@@ -36,7 +37,10 @@ using tinygltf::Value;
 namespace {
 
 // What a small hostile file can make us hold, by naming the same bytes again and again.
-constexpr size_t maxElements = size_t{1} << 26;   // vertices, indices and keys
+constexpr size_t maxElements = size_t{1} << 26;  // vertices, indices and keys
+constexpr double farthest =
+    1e12;  // metres: squares and products of coordinates stay far below what floats hold
+constexpr double smallestView = 1e-6;             // radians or metres: less is rounding
 constexpr size_t maxInstances = size_t{1} << 22;  // drawn primitives
 constexpr uint64_t maxExternalBytes = uint64_t{4} << 30;
 constexpr uint64_t maxTextureBytes = uint64_t{4} << 30;
@@ -1282,15 +1286,16 @@ Camera readCamera(const Faults& faults, const tinygltf::Camera& from, const Node
     camera.yMagnitude = from.orthographic.ymag;
     camera.nearDistance = from.orthographic.znear;
     farDistance = from.orthographic.zfar;
-    if (!(camera.yMagnitude > 0))
-      faults.fail("{}: camera ymag is {}: give more than 0", where, camera.yMagnitude);
+    if (!(camera.yMagnitude >= smallestView && camera.yMagnitude <= farthest))
+      faults.fail("{}: camera ymag is {}: give {} to {}", where, camera.yMagnitude, smallestView, farthest);
     faults.notNegative(camera.nearDistance, where, "camera znear");
   } else {
     camera.yfov = from.perspective.yfov;
     camera.nearDistance = from.perspective.znear;
     farDistance = from.perspective.zfar == 0 ? infinity : from.perspective.zfar;
-    if (!(camera.yfov > 0 && camera.yfov < std::numbers::pi))
-      faults.fail("{}: camera yfov is {}: give radians between 0 and pi", where, camera.yfov);
+    if (!(camera.yfov >= smallestView && camera.yfov < std::numbers::pi))
+      faults.fail("{}: camera yfov is {}: give radians from {} to below pi", where, camera.yfov,
+                  smallestView);
     if (!(camera.nearDistance > 0))
       faults.fail("{}: camera znear is {}: give more than 0", where, camera.nearDistance);
   }
@@ -1299,6 +1304,15 @@ Camera readCamera(const Faults& faults, const tinygltf::Camera& from, const Node
                 camera.nearDistance);
   camera.farDistance = farDistance;
   return camera;
+}
+
+void checkExtent(const Faults& faults, const Scene& scene) {
+  for (const glm::dvec3& p : boundingPoints(scene, {})) {
+    const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (!(reach <= farthest))
+      faults.fail("reaches {:.3g} m from the world's origin, and at most {} m can be drawn: scale it down",
+                  reach, farthest);
+  }
 }
 
 void readCone(const Faults& faults, const tinygltf::SpotLight& spot, Light& light, const std::string& where) {
@@ -1392,6 +1406,7 @@ Scene convert(Model model, const fs::path& path, std::optional<double> seconds, 
       scene.volumes.push_back(
           readVolume(faults, node.extras, placed.worldFromNode, path.parent_path(), where));
   }
+  checkExtent(faults, scene);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -24,6 +25,9 @@ enum class Verdict {
   NoPower,  // its control shows that the bad outcome could not have been seen here
 };
 
+// As it is shown: "PASS", "FAIL", "HANG", "CRASH", "SKIP", "NO POWER".
+std::string_view name(Verdict verdict);
+
 enum class Scale { Small, Full };
 
 // What is measured beside the verdict: name and value, in the order in which people should read them.
@@ -41,13 +45,14 @@ struct Context {
   uint64_t seed = 1;
   Scale scale = Scale::Small;
   std::string mutant;  // one of Check::mutants, or empty: the check's own shaders as they are
+  // The command that runs this check alone once more, in a process of its own; empty where there is none.
+  std::vector<std::string> again;
 };
 
 struct Check {
-  std::string name;  // as in `--only`, lower case with dashes
-  std::string
-      group;  // context, atomics, lists, loops, locks, progress, memory-model, raster, memory, determinism
-  std::string does;  // one line
+  std::string name;   // as in `--only`, lower case with dashes
+  std::string group;  // one of the functions below, with dashes
+  std::string does;   // one line
   // What the engine builds lists with that cannot be trusted when this check fails: "spinlock", "lockfree",
   // "append", "count"; all four: the engine depends on it; none: information only.
   std::vector<std::string> strategies;
@@ -62,6 +67,7 @@ std::vector<Check> contextChecks();
 std::vector<Check> atomicsChecks();
 std::vector<Check> listsChecks();
 std::vector<Check> loopsChecks();
+std::vector<Check> engineChecks();
 std::vector<Check> locksChecks();
 std::vector<Check> progressChecks();
 std::vector<Check> memoryModelChecks();
@@ -69,6 +75,14 @@ std::vector<Check> rasterChecks();
 std::vector<Check> memoryChecks();
 std::vector<Check> determinismChecks();
 
+// These end their process as a bad driver would, to test what runs the checks. Only a name asks for them.
+std::vector<Check> faultyChecks();
+
 std::vector<Check> allChecks();
+
+// The checks whose names or groups are in `only` (all when it is empty) and not in `skip`, in their order.
+// Throws Usage, with the names that are near, for one that there is not.
+std::vector<Check> select(const std::vector<Check>& checks, const std::vector<std::string>& only,
+                          const std::vector<std::string>& skip);
 
 }  // namespace sfumato::lists::validation

@@ -143,13 +143,30 @@ TEST_F(LinkedListsGpuFrames, WindowsAreSeenNowhere) {
 // sample on an edge. Measured on llvmpipe: at most one pixel of 6912.
 TEST_F(LinkedListsGpuFrames, TilesAreSeenNowhere) {
   const Frame whole = drawInParts(device(), {});
-  for (const size_t tilePixels : {5000u, 900u, 60u}) {
+  for (const size_t tilePixels : {5000u, 900u, 200u}) {
     size_t done = 0;
     const Frame parts = drawInParts(device(), {.tilePixels = tilePixels, .onTile = [&] { ++done; }});
     EXPECT_EQ(parts.statistics.tiles, tilesOf(width, height, tilePixels).size());
     EXPECT_EQ(done, parts.statistics.tiles);
     EXPECT_EQ(parts.statistics.surfaces.cells, whole.statistics.surfaces.cells);
     EXPECT_LE(image::pixelsBeyond(parts.radiance, whole.radiance, 1e-5), 4u) << tilePixels;
+  }
+}
+
+// A red wall a centimetre before a blue one, far away, seen through a near plane that is all but in the eye.
+TEST_F(LinkedListsGpuFrames, TellsSurfacesApartWhateverTheNearPlane) {
+  for (const double nearDistance : {0.1, 1e-6, 1e-300}) {
+    KnownScene known;
+    const auto wall = [&](float z, const glm::vec3& colour) {
+      tests::add(known.scene, tests::quad({-200, -200, z}, {400, 0, 0}, {0, 400, 0}), tests::glowing(colour));
+    };
+    wall(-0.01f, {1, 0, 0});
+    wall(-0.02f, {0, 0, 1});
+    known.scene.cameras = {tests::perspectiveCamera({0, 0, 100}, {0, 0, 0}, 0.8)};
+    known.scene.cameras[0].nearDistance = nearDistance;
+    const Frame frame = draw(known, fine);
+    for (size_t i = 0; i < frame.radiance.values.size(); ++i)
+      ASSERT_EQ(frame.radiance.values[i], i % 3 == 0 ? 1.f : 0.f) << nearDistance;
   }
 }
 

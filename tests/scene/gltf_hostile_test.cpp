@@ -323,10 +323,13 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
          j["nodes"][0]["scale"] = {1e300, 1e300, 1e300};
        },
        "not finite"},
+      {"too far away", [](Json& j) { j["nodes"][0]["translation"] = {0, 2e12, 0}; }, "reaches 2e+12 m"},
+      {"too large", [](Json& j) { j["nodes"][0]["scale"] = {1e30, 1, 1}; }, "reaches 1e+30 m"},
       {"huge transform", [](Json& j) { j["nodes"][0]["translation"] = {1e39, 0, 0}; }, "not finite"},
 
       // Cameras.
       {"yfov 0", [](Json& j) { perspective(j)["yfov"] = 0; }, "node 1 \"eye\": camera yfov is 0"},
+      {"yfov all but 0", [](Json& j) { perspective(j)["yfov"] = 1e-300; }, "yfov is 1e-300"},
       {"yfov negative", [](Json& j) { perspective(j)["yfov"] = -1; }, "yfov is -1"},
       {"yfov pi", [](Json& j) { perspective(j)["yfov"] = 3.1415926535897932; }, "yfov"},
       {"no yfov", [](Json& j) { perspective(j).erase("yfov"); }, "yfov"},
@@ -335,6 +338,8 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"zfar at znear", [](Json& j) { perspective(j)["zfar"] = 0.1; }, "zfar 0.1 is not beyond"},
       {"zfar negative", [](Json& j) { perspective(j)["zfar"] = -5; }, "zfar -5 is not beyond"},
       {"ymag 0", [](Json& j) { orthographic(j)["ymag"] = 0; }, "ymag is 0"},
+      {"ymag all but 0", [](Json& j) { orthographic(j)["ymag"] = 1e-300; }, "ymag is 1e-300"},
+      {"ymag without end", [](Json& j) { orthographic(j)["ymag"] = 1e300; }, "ymag is 1e+300"},
       {"orthographic znear", [](Json& j) { orthographic(j)["znear"] = -1; }, "znear is -1"},
       {"orthographic zfar", [](Json& j) { orthographic(j)["zfar"] = 0; }, "zfar 0 is not beyond"},
       {"camera type", [](Json& j) { j["cameras"][0]["type"] = "fisheye"; }, "fisheye"},

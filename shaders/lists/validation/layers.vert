@@ -1,0 +1,8 @@
+// A triangle over the whole viewport; an instance is a layer, the later the nearer.
+flat out uint layer;
+
+void main() {
+  vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(corner, 0.0, 1.0);
+  layer = uint(gl_InstanceID);
+}
