@@ -48,6 +48,7 @@ size_t sumOf(const std::vector<size_t>& values) {
 
 // Tries that 99 % of `insertions` did not exceed, from the tallies of those that took more than one.
 size_t p99Of(std::span<const uint32_t> spins, size_t insertions) {
+  if (insertions == 0) return 0;
   size_t above = insertions / 100;
   for (size_t i = spins.size(); i-- > 0;) {
     if (spins[i] > above) return size_t{2} << i;
@@ -286,7 +287,9 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
   if (stored == Stored::NotAll) {
     // What lost nodes once is not used again.
     ++statistics.distrusted;
-    base::check(statistics.distrusted < 3, "some strategy keeps every node of a list");
+    if (statistics.distrusted == 3)
+      base::fail(base::ExitCode::CheckFailed,
+                 "{}: every strategy loses nodes on this device: choose another one with --device", label_);
     useStrategy(linked() ? Strategy::Count : Strategy::Append);
     return buildPrefix(device, window, draw, wholly, true, statistics);
   }

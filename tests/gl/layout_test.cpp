@@ -16,6 +16,7 @@
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
+#include "shaders/shared/stress.h"
 #include "shaders/shared/surface.h"
 #include "shaders/shared/view.h"
 #include "shaders/shared/volumes.h"
@@ -106,6 +107,7 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ResolveCounters",
        {sizeof(shared::ResolveCounters),
         {AT(ResolveCounters, groups), AT(ResolveCounters, unfinished), AT(ResolveCounters, boundHit)}}},
+      {"StressParams", {sizeof(shared::StressParams), {AT(StressParams, load), AT(StressParams, window)}}},
       {"VolumeData",
        {sizeof(shared::VolumeData),
         {AT(VolumeData, textureFromWorld), AT(VolumeData, boxMin), AT(VolumeData, boxMax),
@@ -177,7 +179,8 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 }
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
-  for (const std::string name : {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams"}) {
+  for (const std::string name :
+       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;
