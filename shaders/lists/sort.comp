@@ -1,6 +1,5 @@
 // Sorts LIST_SORT_SIZE nodes or fewer in registers, an invocation each: a run, or a piece of a longer one. LIST_NETWORK is a sequence of S(i, j), which puts elements i < j in order; LIST_EACH
-// is E(i) for every element (lists/sorting_network.h). Nodes are read and written with constant indices, so that they
-// stay in registers; with several banks that would be too much code, and loops do it.
+// is E(i) for every element (lists/sorting_network.h).
 #include "shaders/lists/counting.glsl"
 #include "shaders/lists/order.glsl"
 #include "shaders/lists/pool.glsl"
@@ -24,12 +23,6 @@ void order(inout int rankA, inout uint idA, inout uint fromA, inout int rankB, i
   fromA = lowFrom;
 }
 
-#if LIST_BANKS == 1
-#define LIST_ALL LIST_EACH
-#else
-// The bound is LIST_SORT_SIZE, as no compiler knows: none unrolls these.
-#define LIST_ALL for (int i = 0; i < min(LIST_SORT_SIZE, sorting.step.z); ++i) { E(i) }
-#endif
 #define S(i, j) order(rank[i], id[i], from[i], rank[j], id[j], from[j]);
 
 void main() {
@@ -50,23 +43,23 @@ void main() {
     rank[i] = listRank(key.x);              \
     id[i] = key.y;                          \
   }
-  LIST_ALL
+  LIST_EACH
 #undef E
   LIST_NETWORK
 #define E(i) \
   if (uint(i) < count) setListKey(first + uint(i), uvec2(uint(listRank(uint(rank[i]))), id[i]));
-  LIST_ALL
+  LIST_EACH
 #undef E
 #if PAYLOAD_WORDS > 0
   uint words[LIST_SORT_SIZE];
   for (uint word = 0u; word < uint(PAYLOAD_WORDS); ++word) {
 #define E(i) \
     if (uint(i) < count) words[i] = listWord(first + uint(i), word);
-    LIST_ALL
+    LIST_EACH
 #undef E
 #define E(i) \
     if (uint(i) < count) setListWord(first + uint(i), word, words[from[i]]);
-    LIST_ALL
+    LIST_EACH
 #undef E
   }
 #endif

@@ -76,8 +76,9 @@ SHARED_END
 #define LIST_TALLY_SPINS (2 * LIST_LENGTH_CLASSES)
 #define LIST_TALLIES (2 * LIST_LENGTH_CLASSES + LIST_SPIN_CLASSES)
 #define LIST_NOT_LISTED 0xffffffffu  // a cursor of lengths whose cells need no list
-// Runs up to this length are sorted in registers.
+// Runs up to this length are sorted in registers; of pools of several banks, whose access is longer code, the second.
 #define LIST_SHORT_RUN 32
+#define LIST_SHORT_RUN_IN_BANKS 8
 // Cells that one invocation of the scan adds up.
 #define LIST_SCAN_BLOCK 64
 #define LIST_MAX_BANKS 4

@@ -303,7 +303,7 @@ TEST_F(ListsGpu, OneCellOverTheBudgetIsAnErrorThatSaysHowMuch) {
 
 TEST_F(ListsGpu, PoolsOfSeveralBanksHoldTheSame) {
   for (const Strategy strategy : strategies)
-    for (const int words : {0, 1, 3})
+    for (const int words : strategy == Strategy::Count ? std::vector{0, 3} : std::vector{1})
       for (const Load& load : {mixed, crowded}) {
         // Two to four banks.
         const size_t bytes = size_t{load.nodes} * 12 / 2;
