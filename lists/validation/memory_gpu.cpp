@@ -73,7 +73,8 @@ std::string faultOf(const Context& context, uint64_t bytes) {
   return {};
 }
 
-Result sizeLadder(const Context& context) {
+// The sizes up to the largest block that the driver promises, or those beyond it.
+Result ladder(const Context& context, bool promised) {
   std::vector<uint64_t> sizes = {64 * mebi, 128 * mebi, 256 * mebi};
   if (context.scale == Scale::Full)
     sizes.insert(sizes.end(), {512 * mebi, 1024 * mebi, 2048 * mebi - 4, 2048 * mebi, 2048 * mebi + 4,
@@ -83,6 +84,7 @@ Result sizeLadder(const Context& context) {
   Result result;
   result.figures = {{"largest block that is promised (MiB)", static_cast<int64_t>(limit / mebi)}};
   for (const uint64_t bytes : sizes) {
+    if (promised != (bytes <= limit)) continue;
     const std::string label = fmt::format("{} bytes", bytes);
     if (room && bytes + bytes / 4 + 512 * mebi > *room) {
       result.figures.emplace_back(label, "not tried: this machine has too little free memory");
@@ -96,17 +98,22 @@ Result sizeLadder(const Context& context) {
       result.figures.emplace_back(label, "refused");
       continue;
     }
-    const bool promised = bytes <= limit;
-    result.figures.emplace_back(
-        label, fault.empty() ? (promised ? "right" : "right, though over the limit") : fault);
+    result.figures.emplace_back(label, fault.empty() ? "right" : fault);
     if (fault.empty() || result.verdict == Verdict::Fail) continue;
-    if (promised) result.verdict = Verdict::Fail;
-    result.finding =
-        fmt::format("a buffer of {} bytes{}: {}", bytes, promised ? "" : ", over the limit", fault);
+    result.verdict = Verdict::Fail;
+    result.finding = fmt::format("a buffer of {} bytes: {}", bytes, fault);
     result.meaning = promised ? "large pools are not safe here: keep memory budgets below that size"
                               : "the limit of a block is meant: the engine keeps to it";
   }
   return result;
+}
+
+Result sizeLadder(const Context& context) {
+  return ladder(context, true);
+}
+
+Result sizeBeyond(const Context& context) {
+  return ladder(context, false);
 }
 
 Result outside(const Context& context) {
@@ -338,10 +345,16 @@ std::vector<Check> memoryChecks() {
   return {
       {"size-ladder",
        "memory",
-       "storage buffers up to 256 MiB (full: 4 GiB - 4), their last words and length()",
+       "storage buffers up to the promised size: their last words and length()",
        all,
        {"SHORT_INDEX"},
        sizeLadder},
+      {"size-beyond",
+       "memory",
+       "larger ones, to 256 MiB (full: 4 GiB - 4): right, or refused: for information",
+       {},
+       {},
+       sizeBeyond},
       {"outside",
        "memory",
        "reads, writes and atomics past the end of a bound range, up to index 2^32 - 1: for information",
