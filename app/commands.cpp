@@ -8,6 +8,7 @@
 #include "app/validators.h"
 #include "base/version.h"
 #include "lists/strategy.h"
+#include "lists/stress/load.h"
 #include "pipelines/aovs.h"
 #include "pipelines/quality.h"
 
@@ -97,8 +98,9 @@ void addView(CLI::App& command, RenderOptions& options) {
     options.height = size.height;
   };
   command
-      .add_option_function<std::string>("--res", takeResolution,
-                                        "Image size: 1 to 16384 pixels a side, else 1280x720")
+      .add_option_function<std::string>(
+          "--res", takeResolution,
+          fmt::format("Image size: 1 to 16384 pixels a side, else {}x{}", options.width, options.height))
       ->type_name("WxH")
       ->check(resolution())
       ->group("View");
@@ -124,7 +126,9 @@ void addQuality(CLI::App& command, RenderOptions& options) {
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command.add_option(name, value, help)->group("Quality");
   };
-  add("--quality", options.quality, "draft, medium, high or reference; else medium")
+  command
+      .add_option("--quality", options.quality, "draft, medium, high or reference; else " + options.quality)
+      ->group("Quality")
       ->type_name("NAME")
       ->check(oneOf(pipelines::qualityNames()));
   add("--step", options.stepVoxels, "March through smoke in such steps: 0.01 to 100, else by --quality")
@@ -134,6 +138,12 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Texels a side of a deep shadow map: 32 to 16384, else by --quality")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
+}
+
+void addLists(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Quality");
+  };
   add("--lists", options.lists,
       "Build lists in this way: spinlock, lockfree, append or count; else what suits")
       ->type_name("NAME")
@@ -143,15 +153,19 @@ void addQuality(CLI::App& command, RenderOptions& options) {
   add("--on-overflow", options.onOverflow, "What then: grow, window (in parts, slower) or error; else window")
       ->type_name("NAME")
       ->check(oneOf(lists::onOverflowNames()));
+}
+
+void addReference(CLI::App& command, RenderOptions& options) {
   CLI::Option* reference =
       command
           .add_flag("--reference", options.reference,
                     "Draw on the CPU, by tracing rays in double precision: slow, needs no GL")
           ->group("Quality");
-  add("--samples", options.samples, "Its samples a side of a pixel: 1 to 64, else 1")
+  command.add_option("--samples", options.samples, "Its samples a side of a pixel: 1 to 64, else 1")
       ->type_name("COUNT")
       ->check(wholeBetween(1, 64))
-      ->needs(reference);
+      ->needs(reference)
+      ->group("Quality");
 }
 
 void addOutput(CLI::App& command, RenderOptions& options) {
@@ -195,6 +209,85 @@ void addTolerance(CLI::App& command, const std::string& what, Tolerance& toleran
   add("--" + what + "percent", tolerance.percent, "PERCENT", 100,
       "And where they are more than this of all pixels, else 0");
   add("--hard" + what, tolerance.hard, "VALUE", 1e30, says + " where any pixel differs by more");
+}
+
+// An option that takes one or more values with commas between them.
+template <typename T>
+CLI::Option* addChoices(CLI::App& command, const char* name, std::vector<T>& values, const char* help) {
+  return command.add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
+}
+
+void addLoad(CLI::App& command, StressOptions& options) {
+  const auto takeCells = [&options](const std::vector<std::string>& texts) {
+    options.cells.clear();
+    for (const std::string& text : texts) {
+      const Resolution size = parseResolution(text).value();
+      options.cells.emplace_back(size.width, size.height);
+    }
+  };
+  command.add_option_function<std::vector<std::string>>("--cells", takeCells, "Grids of cells, else 128x128")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("WxH,...")
+      ->check(resolution())
+      ->group("Synthetic loads");
+  addChoices(command, "--layers", options.layers, "Mean nodes a cell: 1 to 1000000, else 4,16,32")
+      ->type_name("COUNT,...")
+      ->check(wholeBetween(1, 1000000))
+      ->group("Synthetic loads");
+  addChoices(command, "--distribution", options.distributions, "Of uniform,hot-spot,one-cell,hair; else all")
+      ->type_name("NAME,...")
+      ->check(oneOf(lists::stress::distributionNames()))
+      ->group("Synthetic loads");
+  addChoices(command, "--node-bytes", options.nodeBytes, "Payload of a node: 0, 4, ... 64; else 4")
+      ->type_name("BYTES,...")
+      ->check(oneOf({"0", "4", "8", "12", "16", "20", "24", "28", "32", "36", "40", "44", "48", "52", "56",
+                     "60", "64"}))
+      ->group("Synthetic loads");
+  command.add_option("--seed", options.seed, "Of the loads, and of the lights of a scene; else 1")
+      ->type_name("NUMBER")
+      ->check(wholeBetween(0, std::numeric_limits<int>::max()))
+      ->group("Synthetic loads");
+}
+
+void addStrategies(CLI::App& command, StressOptions& options) {
+  addChoices(command, "--lists", options.lists, "Of spinlock,lockfree,append,count; else all")
+      ->type_name("NAME,...")
+      ->check(oneOf(lists::strategyNames()))
+      ->group("Lists");
+  addChoices(command, "--list-memory", options.listMemory,
+             "Budgets: none, 256M, or 10% of what finished lists take; else none,10%")
+      ->type_name("SIZE,...")
+      ->check(budget())
+      ->group("Lists");
+  command
+      .add_option("--on-overflow", options.onOverflow, "Of the budget: grow, window or error; else window")
+      ->type_name("NAME")
+      ->check(oneOf(lists::onOverflowNames()))
+      ->group("Lists");
+}
+
+void addStressOutput(CLI::App& command, StressOptions& options) {
+  command.add_flag("--json", options.json, "As JSON")->group("Output");
+  command.add_option("--report", options.report, "Write FOLDER/index.html, a page with plots")
+      ->type_name("FOLDER")
+      ->check(fileName())
+      ->group("Output");
+}
+
+void addTimes(CLI::App& command, StressOptions& options) {
+  command
+      .add_option("--repeat", options.repeat,
+                  "Do each run so often, and keep its least times: 1 to 1000, else 1")
+      ->type_name("TIMES")
+      ->check(wholeBetween(1, 1000))
+      ->group("Runs");
+  command
+      .add_option("--minutes", options.minutes,
+                  "Soak so long instead: sizes and budgets change from run to run")
+      ->type_name("COUNT")
+      ->check(between(0.001, 100000))
+      ->group("Runs");
 }
 
 CLI::App& addCommand(CLI::App& program, const char* name, const char* help, const char* usage) {
@@ -259,6 +352,8 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addSmoke(command, options);
   addView(command, options);
   addQuality(command, options);
+  addLists(command, options);
+  addReference(command, options);
   addOutput(command, options);
   addDevice(command, options.device);
   addFlags(command, verbosity);
@@ -278,6 +373,33 @@ CLI::App& addCompare(CLI::App& program, CompareOptions& options, Verbosity& verb
       ->check(fileName())
       ->group("Output");
   command.add_flag("--json", options.json, "As JSON")->group("Output");
+  addFlags(command, verbosity);
+  return command;
+}
+
+CLI::App& addStress(CLI::App& program, StressOptions& options, Verbosity& verbosity) {
+  CLI::App& command = addCommand(
+      program, "stress", "Build lists of every kind under load, and check every node", "[SCENE] [OPTIONS]");
+  CLI::Option* scene =
+      command.add_option("SCENE", options.shot.scene, ".gltf or .glb to stress instead of synthetic loads")
+          ->check(fileName());
+  addLoad(command, options);
+  for (const char* name : {"--cells", "--layers", "--distribution", "--node-bytes"})
+    command.get_option(name)->excludes(scene);
+  addStrategies(command, options);
+  addTimes(command, options);
+  command
+      .add_option_function<std::string>(
+          "--lights", [&options](const std::string& text) { options.lights = parseRange(text, 1, 65536); },
+          "Put so many lights into SCENE, twice as many from run to run")
+      ->type_name("FROM..TO")
+      ->check(range(1, 65536))
+      ->group("Scene");
+  addSmoke(command, options.shot);
+  addView(command, options.shot);
+  addQuality(command, options.shot);
+  addStressOutput(command, options);
+  addDevice(command, options.shot.device);
   addFlags(command, verbosity);
   return command;
 }

@@ -17,6 +17,7 @@ void addProgram(CLI::App& program, Verbosity& verbosity);
 
 CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbosity);
 CLI::App& addCompare(CLI::App& program, CompareOptions& options, Verbosity& verbosity);
+CLI::App& addStress(CLI::App& program, StressOptions& options, Verbosity& verbosity);
 CLI::App& addInfo(CLI::App& program, InfoOptions& options, Verbosity& verbosity);
 CLI::App& addValidate(CLI::App& program, ValidateOptions& options, Verbosity& verbosity);
 

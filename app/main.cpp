@@ -63,6 +63,9 @@ int run(int argc, char** argv) {
   const CLI::App& renderCommand = app::addRender(program, renderOptions, verbosity);
   app::CompareOptions compareOptions{.commandLine = renderOptions.commandLine};
   const CLI::App& compareCommand = app::addCompare(program, compareOptions, verbosity);
+  app::StressOptions stressOptions;
+  stressOptions.shot.commandLine = renderOptions.commandLine;
+  const CLI::App& stressCommand = app::addStress(program, stressOptions, verbosity);
   app::InfoOptions infoOptions;
   const CLI::App& infoCommand = app::addInfo(program, infoOptions, verbosity);
   app::ValidateOptions validateOptions;
@@ -83,6 +86,7 @@ int run(int argc, char** argv) {
                                          : base::Verbosity::Normal);
   if (renderCommand.parsed()) return app::render(renderOptions);
   if (compareCommand.parsed()) return app::compare(compareOptions);
+  if (stressCommand.parsed()) return app::stress(stressOptions);
   if (infoCommand.parsed()) return app::info(infoOptions);
   if (validateCommand.parsed()) return app::validate(validateOptions);
   failUsage(program, "no command");

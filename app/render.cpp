@@ -58,13 +58,6 @@ void addDefaults(const RenderOptions& options, scene::Scene& scene, std::vector<
   scene::addDefaultSet(scene, scene::boundsOf(media), yfovOf(options), aspectOf(options));
 }
 
-// Of all that is there.
-scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Medium>& media) {
-  std::vector<glm::dmat4> mediaBoxes;
-  for (const volumes::Medium& medium : media) mediaBoxes.push_back(volumes::worldFromUnit(medium));
-  return scene::boundsOf(scene::boundingPoints(scene, mediaBoxes));
-}
-
 // The camera that --camera names, the first one, or nothing.
 const scene::Camera* cameraOfScene(const RenderOptions& options, const scene::Scene& scene) {
   if (options.camera.empty()) return scene.cameras.empty() ? nullptr : &scene.cameras.front();
@@ -253,7 +246,14 @@ Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_
   return drawn;
 }
 
-// Reads everything that is drawn.
+}  // namespace
+
+scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Medium>& media) {
+  std::vector<glm::dmat4> mediaBoxes;
+  for (const volumes::Medium& medium : media) mediaBoxes.push_back(volumes::worldFromUnit(medium));
+  return scene::boundsOf(scene::boundingPoints(scene, mediaBoxes));
+}
+
 Shot makeShot(const RenderOptions& options) {
   Shot shot;
   if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
@@ -267,8 +267,6 @@ Shot makeShot(const RenderOptions& options) {
   shot.aovs = wantedAovs(options);
   return shot;
 }
-
-}  // namespace
 
 int render(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();

@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "pipelines/aovs.h"
 #include "pipelines/quality.h"
+#include "scene/default_set.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
 
@@ -27,6 +28,11 @@ struct Shot {
   pipelines::Quality quality;
   pipelines::AovSet aovs;  // that are wanted
 };
+
+// Reads everything that is drawn.
+Shot makeShot(const RenderOptions& options);
+// Of all that is there.
+scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Medium>& media);
 
 struct Drawn {
   image::Image radiance;

@@ -6,6 +6,9 @@
 #include <charconv>
 #include <filesystem>
 
+#include "base/error.h"
+#include "lists/strategy.h"
+
 namespace sfumato::app {
 namespace {
 
@@ -57,6 +60,39 @@ CLI::Validator resolution() {
   const auto check = [](const std::string& text) -> std::string {
     if (parseResolution(text)) return {};
     return fmt::format("\"{}\" is not WIDTHxHEIGHT with 1 to 16384 pixels a side, e.g. 1280x720", text);
+  };
+  return CLI::Validator(check, "");
+}
+
+std::optional<glm::ivec2> parseRange(std::string_view text, int low, int high) {
+  const size_t dots = text.find("..");
+  const auto first = parse<int>(text.substr(0, dots));
+  const auto last = dots == std::string_view::npos ? first : parse<int>(text.substr(dots + 2));
+  if (!first || !last || *first < low || *last > high || *first > *last) return std::nullopt;
+  return glm::ivec2(*first, *last);
+}
+
+CLI::Validator range(int low, int high) {
+  const auto check = [=](const std::string& text) -> std::string {
+    if (parseRange(text, low, high)) return {};
+    return fmt::format("\"{}\" is not a range FROM..TO of whole numbers from {} to {}", text, low, high);
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator budget() {
+  const auto check = [](const std::string& text) -> std::string {
+    if (text == "none") return {};
+    if (text.ends_with('%')) {
+      const auto percent = parse<double>(text.substr(0, text.size() - 1));
+      if (percent && *percent > 0 && *percent <= 10000) return {};
+    } else {
+      try {
+        if (lists::bytesNamed(text, "") > 0) return {};
+      } catch (const base::Error&) {  // told below
+      }
+    }
+    return fmt::format("\"{}\" is no budget: write none, 256M, or 10% of what the nodes take", text);
   };
   return CLI::Validator(check, "");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,13 @@ struct Resolution {
 // Of "640x480"; std::nullopt unless both sides are 1 to 16384.
 std::optional<Resolution> parseResolution(std::string_view text);
 CLI::Validator resolution();
+
+// Of "8" or "1..4096", both ends from `low` to `high`, the second not below the first.
+std::optional<glm::ivec2> parseRange(std::string_view text, int low, int high);
+CLI::Validator range(int low, int high);
+
+// "none", "10%" (above 0, up to 10000), or what lists::bytesNamed() takes.
+CLI::Validator budget();
 
 CLI::Validator oneOf(const std::vector<std::string>& names);
 CLI::Validator fileName();  // not empty

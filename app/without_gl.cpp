@@ -22,5 +22,10 @@ int validate(const ValidateOptions&) {
              "validate: this program was built without OpenGL: build it with SFUMATO_GL=ON");
 }
 
+int stress(const StressOptions&) {
+  base::fail(base::ExitCode::NoGl,
+             "stress: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+}
+
 }  // namespace sfumato::app
 #endif

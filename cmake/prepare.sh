@@ -8,6 +8,7 @@ packages=(
   libopenvdb-dev libboost-iostreams-dev # OpenVDB's headers and its CMake module want Boost
   libopenimageio-dev openimageio-tools
   libtinygltf-dev libglm-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libtbb-dev libgtest-dev
+  libjs-chart.js # plots of `sfumato stress --report`, compiled in
   libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri # OpenGL, and a driver that needs no GPU
 )
 

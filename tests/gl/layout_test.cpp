@@ -16,6 +16,7 @@
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
+#include "shaders/shared/stress.h"
 #include "shaders/shared/surface.h"
 #include "shaders/shared/view.h"
 #include "shaders/shared/volumes.h"
@@ -69,10 +70,9 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ListLink", {sizeof(shared::ListLink), {AT(ListLink, depth), AT(ListLink, id), AT(ListLink, next)}}},
       {"ListCounters",
        {sizeof(shared::ListCounters),
-        {AT(ListCounters, demand), AT(ListCounters, overflowed),
-         AT(ListCounters, maxSpins), AT(ListCounters, retries), AT(ListCounters, longest),
-         AT(ListCounters, total), AT(ListCounters, unfinished), AT(ListCounters, broken),
-         AT(ListCounters, unsorted)}}},
+        {AT(ListCounters, demand), AT(ListCounters, overflowed), AT(ListCounters, maxSpins),
+         AT(ListCounters, retries), AT(ListCounters, longest), AT(ListCounters, total),
+         AT(ListCounters, unfinished), AT(ListCounters, broken), AT(ListCounters, unsorted)}}},
       {"ListKey", {sizeof(shared::ListKey), {AT(ListKey, depth), AT(ListKey, id)}}},
       {"ListRun", {sizeof(shared::ListRun), {AT(ListRun, first), AT(ListRun, count)}}},
       {"ListWindow", {sizeof(shared::ListWindow), {AT(ListWindow, range)}}},
@@ -106,6 +106,7 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ResolveCounters",
        {sizeof(shared::ResolveCounters),
         {AT(ResolveCounters, groups), AT(ResolveCounters, unfinished), AT(ResolveCounters, boundHit)}}},
+      {"StressParams", {sizeof(shared::StressParams), {AT(StressParams, load), AT(StressParams, window)}}},
       {"VolumeData",
        {sizeof(shared::VolumeData),
         {AT(VolumeData, textureFromWorld), AT(VolumeData, boxMin), AT(VolumeData, boxMax),
@@ -177,7 +178,8 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 }
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
-  for (const std::string name : {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams"}) {
+  for (const std::string name :
+       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;

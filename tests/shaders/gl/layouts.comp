@@ -5,6 +5,7 @@
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
+#include "shaders/shared/stress.h"
 #include "shaders/shared/surface.h"
 #include "shaders/shared/view.h"
 #include "shaders/shared/volumes.h"

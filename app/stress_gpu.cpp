@@ -1,0 +1,196 @@
+// `sfumato stress`: builds lists of every kind under load, and judges every node of them.
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <set>
+
+#include "app/json_text.h"
+#include "app/shot.h"
+#include "app/stress.h"
+#include "app/stress_scene_gpu.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "gl/device.h"
+#include "lists/stress/stress_gpu.h"
+
+namespace sfumato::app {
+
+using base::ExitCode;
+using base::fail;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+// The first Ctrl-C ends the test with the report so far, the second the program.
+void listenForInterrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+fs::path pageOf(const StressOptions& options) {
+  return fs::path(options.report) / "index.html";
+}
+
+bool isOfScene(const StressOptions& options) {
+  return !options.shot.scene.empty() || !options.shot.volumes.empty();
+}
+
+void checkOptions(const StressOptions& options) {
+  if (isOfScene(options)) {
+    for (const std::string& budget : options.listMemory)
+      if (budget.ends_with('%'))
+        fail(ExitCode::Usage,
+             "--list-memory: \"{}\" is of what a synthetic load takes: name a size, e.g. 64M", budget);
+    if (options.minutes > 0) fail(ExitCode::Usage, "--minutes: is for synthetic loads: leave the scene out");
+    return;
+  }
+  const RenderOptions& shot = options.shot;
+  const std::pair<const char*, bool> given[] = {
+      {"--lights", options.lights.has_value()},         {"--grid", !shot.grid.empty()},
+      {"--volume-scale", shot.volumeScale.has_value()}, {"--camera", !shot.camera.empty()},
+      {"--time", shot.timeSeconds.has_value()},         {"--look-from", shot.lookFrom.has_value()},
+      {"--look-at", shot.lookAt.has_value()},           {"--fov", shot.fovDegrees.has_value()}};
+  for (const auto& [name, is] : given)
+    if (is) fail(ExitCode::Usage, "{}: is for a scene: name a .gltf or .glb file", name);
+  plannedRuns(options);  // throws where one is too large
+}
+
+// Before the long work: the page can be made and written.
+void checkReport(const StressOptions& options) {
+  if (options.report.empty()) return;
+  image::checkReports();
+  std::error_code problem;
+  fs::create_directories(options.report, problem);
+  if (problem) fail(ExitCode::Input, "{}: cannot be made: {}", options.report, problem.message());
+  base::checkWritable(pageOf(options));
+}
+
+// Compiles what a run needs, so that its times hold none of that: the same on few cells, without a budget.
+void warmUp(gl::Device& device, const StressRun& run) {
+  lists::stress::Load load = *run.synthetic;
+  load.width = std::min(load.width, 64);
+  load.height = std::min(load.height, 64);
+  lists::stress::measure(device, load, {.strategy = run.options.strategy});
+}
+
+// One run, as often as it is repeated: the least times, the faults of all.
+void measureRun(gl::Device& device, StressRun& run, int repeat) {
+  warmUp(device, run);
+  for (int i = 0; i < repeat; ++i) {
+    const lists::stress::Measured measured = lists::stress::measure(device, *run.synthetic, run.options);
+    const auto keepLeast = [&](double& least, double seconds) {
+      least = i == 0 ? seconds : std::min(least, seconds);
+    };
+    keepLeast(run.buildSeconds, measured.buildSeconds);
+    keepLeast(run.resolveSeconds, measured.resolveSeconds);
+    keepLeast(run.lookupSeconds, measured.lookupSeconds);
+    run.statistics = measured.statistics;
+    run.lookups = measured.lookups;
+    run.findings += measured.findings;
+  }
+}
+
+// What the container says by an error is a result here.
+void doRun(gl::Device& device, StressRun& run, int repeat) {
+  try {
+    measureRun(device, run, repeat);
+  } catch (const base::Error& error) {
+    if (error.exitCode == ExitCode::Memory)
+      run.refused = error.what();
+    else if (error.exitCode == ExitCode::CheckFailed)
+      run.findings = {.lost = run.synthetic->nodes(), .fault = error.what()};
+    else
+      throw;
+  }
+}
+
+void sweep(gl::Device& device, const StressOptions& options, StressResult& result) {
+  std::vector<StressRun> runs = plannedRuns(options);
+  base::Progress progress("stress", static_cast<long>(runs.size()));
+  for (StressRun& run : runs) {
+    if (interrupted != 0) break;
+    doRun(device, run, options.repeat);
+    result.runs.push_back(std::move(run));
+    progress.advance();
+  }
+}
+
+void soak(gl::Device& device, const StressOptions& options, StressResult& result) {
+  const Clock::time_point start = Clock::now();
+  const double seconds = options.minutes * 60;
+  base::Progress progress("soak", 1000);
+  base::Random random(static_cast<uint64_t>(options.seed));
+  for (long shown = 0; interrupted == 0 && secondsSince(start) < seconds;) {
+    StressRun run = drawnRun(options, random);
+    doRun(device, run, options.repeat);
+    result.runs.push_back(std::move(run));
+    const long done = std::min(1000L, static_cast<long>(secondsSince(start) / seconds * 1000));
+    progress.advance(done - shown);
+    shown = done;
+  }
+}
+
+void tell(const StressOptions& options, const StressResult& result) {
+  if (options.json)
+    base::printResult(text(jsonOf(result)));
+  else
+    base::printResult(tableOf(result));
+  if (options.report.empty()) return;
+  base::writeFile(pageOf(options), image::reportPage(reportOf(result)));
+  base::note("wrote {}", pageOf(options).string());
+}
+
+// Each reason once.
+void warnOfRefusals(const StressResult& result) {
+  std::set<std::string> reasons;
+  for (const StressRun& run : result.runs)
+    if (!run.refused.empty() && reasons.insert(run.refused).second) base::warn("{}", run.refused);
+}
+
+// Bad runs decide; runs that their budget refused are a fault of the budget, but in a soak, which draws it.
+int exitCodeOf(const StressResult& result) {
+  if (result.badRuns() > 0) return static_cast<int>(ExitCode::CheckFailed);
+  if (result.refusedRuns() > 0 && !result.soak) return static_cast<int>(ExitCode::Memory);
+  return static_cast<int>(ExitCode::Done);
+}
+
+}  // namespace
+
+int stress(const StressOptions& options) {
+  const Clock::time_point start = Clock::now();
+  checkOptions(options);
+  checkReport(options);
+  gl::Device device({.choice = options.shot.device.device, .shaderDir = options.shot.device.shaderDir});
+  base::note("device: {} ({})", device.names().renderer, device.names().platform);
+
+  StressResult result{.device = device.names().renderer,
+                      .commandLine = options.shot.commandLine,
+                      .soak = options.minutes > 0};
+  listenForInterrupts();
+  if (isOfScene(options))
+    stressScene(
+        device, options, [] { return interrupted != 0; }, result);
+  else if (result.soak)
+    soak(device, options, result);
+  else
+    sweep(device, options, result);
+  result.interrupted = interrupted != 0;
+  result.seconds = secondsSince(start);
+
+  // A test of which nothing was built is an error, and no result.
+  if (!result.runs.empty() && result.refusedRuns() == result.runs.size())
+    fail(ExitCode::Memory, "{}", result.runs.front().refused);
+  tell(options, result);
+  if (!result.soak) warnOfRefusals(result);
+  return exitCodeOf(result);
+}
+
+}  // namespace sfumato::app

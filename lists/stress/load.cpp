@@ -1,0 +1,115 @@
+#include "lists/stress/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace sfumato::lists::stress {
+namespace {
+
+// A bijection of 32 bits with little bias (Wellons 2018, "lowbias32").
+uint32_t hash(uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ x >> 16;
+}
+
+// What the hash of a number is used for. shaders/lists/stress/load.glsl has the same.
+enum Use : uint32_t {
+  Depth,
+  Cell,
+  Spot,
+  SpotX,
+  SpotY,
+  Clump,
+  ClumpRoot,
+  ClumpDrift,
+  ClumpDepth,
+  Fray,
+  Payload = 64
+};
+
+uint32_t draw(const Load& load, uint32_t number, uint32_t use) {
+  return hash(number ^ hash(load.seed * 128u + use));
+}
+
+// Two hashed numbers below `radius` summed: a triangle of that radius around `radius`.
+uint32_t triangle(uint32_t bits, uint32_t radius) {
+  return (bits & 0xffffu) % radius + (bits >> 16) % radius;
+}
+
+uint32_t hotSpotCell(const Load& load, uint32_t number) {
+  const auto width = static_cast<uint32_t>(load.width), height = static_cast<uint32_t>(load.height);
+  if (draw(load, number, Spot) % 2 == 0) return draw(load, number, Cell) % (width * height);
+  const uint32_t x = draw(load, 0, SpotX) + triangle(draw(load, number, SpotX), std::max(width / 8, 1u));
+  const uint32_t y = draw(load, 0, SpotY) + triangle(draw(load, number, SpotY), std::max(height / 8, 1u));
+  return y % height * width + x % width;
+}
+
+// Strands run from the left edge to the right. The strands of a clump share root, drift and, nearly, depth.
+Node hairNode(const Load& load, uint32_t number) {
+  const auto width = static_cast<uint32_t>(load.width), height = static_cast<uint32_t>(load.height);
+  const uint32_t strand = number / width, x = number % width;
+  const uint32_t clump = draw(load, strand, Clump) % std::max(height / 16, 1u);
+  const uint32_t drift = draw(load, clump, ClumpDrift) % height;
+  const uint32_t fray = draw(load, strand, Fray) % std::max(height / 8, 1u);
+  const uint32_t y = draw(load, clump, ClumpRoot) % height + (drift + fray) * x / width;
+  const uint32_t depth = draw(load, clump, ClumpDepth) % 1024u + fray % 8u;
+  return {y % height * width + x, static_cast<float>(depth + 1u) / 2048.f};
+}
+
+}  // namespace
+
+const std::vector<std::string>& distributionNames() {
+  static const std::vector<std::string> names = {"uniform", "hot-spot", "one-cell", "hair"};
+  return names;
+}
+
+const std::string& nameOf(Distribution distribution) {
+  return distributionNames()[static_cast<size_t>(distribution)];
+}
+
+Distribution distributionNamed(const std::string& name) {
+  const auto& names = distributionNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    base::fail(base::ExitCode::Usage, "no distribution \"{}\": choose one of {}", name,
+               fmt::join(names, ", "));
+  return static_cast<Distribution>(found - names.begin());
+}
+
+size_t Load::nodes() const {
+  const auto columns = static_cast<size_t>(width), rows = static_cast<size_t>(height);
+  return static_cast<size_t>(layers) * columns * (distribution == Distribution::OneCell ? 1 : rows);
+}
+
+Node nodeOf(const Load& load, uint32_t number) {
+  if (load.distribution == Distribution::Hair) return hairNode(load, number);
+  const auto cells = static_cast<uint32_t>(load.cells());
+  const float depth = static_cast<float>(draw(load, number, Depth) % 65536u + 1u) / 65536.f;
+  switch (load.distribution) {
+    case Distribution::HotSpot:
+      return {hotSpotCell(load, number), depth};
+    case Distribution::OneCell:
+      return {draw(load, 0, Cell) % cells, depth};
+    default:
+      return {number % cells, depth};
+  }
+}
+
+uint32_t payloadWord(const Load& load, uint32_t number, uint32_t word) {
+  return draw(load, number, Payload + word);
+}
+
+std::vector<uint32_t> lengthsOf(const Load& load) {
+  std::vector<uint32_t> lengths(load.cells());
+  const auto nodes = static_cast<uint32_t>(load.nodes());
+  for (uint32_t number = 0; number < nodes; ++number) ++lengths[nodeOf(load, number).cell];
+  return lengths;
+}
+
+}  // namespace sfumato::lists::stress

@@ -1,0 +1,176 @@
+#include "lists/stress/stress_gpu.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "gl/buffer.h"
+#include "gl/commands.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/stress.h"
+
+namespace sfumato::lists::stress {
+namespace {
+
+using gl::Profiler;
+
+// Memory of a known content, beside that of the lists.
+class Guard {
+ public:
+  explicit Guard(gl::Device& device)
+      : words_(4096, 0xc0ffee11u), buffer_(device, "stress guard", std::span<const uint32_t>(words_)) {}
+  size_t changedWords() const {
+    const auto now = buffer_.readValues<uint32_t>(words_.size());
+    size_t changed = 0;
+    for (size_t i = 0; i < now.size(); ++i) changed += now[i] != words_[i] ? 1 : 0;
+    return changed;
+  }
+
+ private:
+  std::vector<uint32_t> words_;
+  gl::Buffer buffer_;
+};
+
+class Measurement {
+ public:
+  Measurement(gl::Device& device, const Load& load, const ListOptions& options)
+      : device_(device),
+        load_(load),
+        before_(device),
+        lists_(device, "stress", load.cells(), load.payloadWords * sizeof(uint32_t), options),
+        after_(device),
+        params_(device, "stress params", sizeof(shared::StressParams)),
+        verification_(load) {}
+
+  Measured run() {
+    Measured measured;
+    device_.profiler().enable();
+    device_.profiler().reset();
+    {
+      const Profiler::Scope time(device_.profiler(), "stress lists");
+      measured.statistics = lists_.buildWindows(
+          device_, [&](const Pass& pass) { draw(pass); }, [&](const Window& window) { consume(window); });
+    }
+    // Counted in powers of 2, so that it may be above the most.
+    measured.statistics.p99Spins = std::min(measured.statistics.p99Spins, measured.statistics.maxSpins);
+    measured.findings = verification_.findings();
+    measured.findings.rebuilt = static_cast<size_t>(measured.statistics.distrusted);
+    measured.findings.overwritten = before_.changedWords() + after_.changedWords();
+    measured.statistics.demand = load_.nodes();  // whatever the shaders made of it
+    describeFault(measured.findings);
+    measured.lookups = load_.cells() * lookupsPerCell;
+    measured.buildSeconds = seconds("stress draw");
+    measured.lookupSeconds = seconds("stress lookup");
+    measured.resolveSeconds =
+        seconds("stress lists") - measured.buildSeconds - measured.lookupSeconds - seconds("stress check");
+    return measured;
+  }
+
+ private:
+  // Of what is no fault of one cell.
+  void describeFault(Findings& findings) const {
+    if (!findings.fault.empty()) return;
+    if (findings.rebuilt > 0)
+      findings.fault = "the strategy lost nodes: the lists were built again by another one";
+    else if (findings.overwritten > 0)
+      findings.fault = fmt::format("{} words beside the lists were overwritten", findings.overwritten);
+  }
+
+  // Of every pass of this name, whatever passes it was part of.
+  double seconds(const std::string& name) const {
+    double milliseconds = 0;
+    for (const gl::PassTime& time : device_.profiler().times())
+      if (("/" + time.name).ends_with("/" + name)) milliseconds += time.wallMilliseconds;
+    return milliseconds / 1000;
+  }
+
+  void useParams(const Window& window, size_t nodes, bool cut) {
+    params_.writeValue(
+        shared::StressParams{.load = {load_.width, load_.height, static_cast<int>(load_.seed),
+                                      static_cast<int>(load_.distribution)},
+                             .window = {static_cast<int>(window.firstCell), static_cast<int>(window.cells),
+                                        static_cast<int>(nodes), cut}});
+    params_.bindUniform(UNIFORM_PASS);
+  }
+
+  void draw(const Pass& pass) {
+    // Layers that fill the picture are cut to the window, as a scissor does; other nodes may be anywhere.
+    const bool cut = load_.distribution == Distribution::Uniform;
+    const size_t nodes = cut ? pass.window.cells * static_cast<size_t>(load_.layers) : load_.nodes();
+    gl::ShaderDefines defines = pass.defines;
+    defines.emplace_back("LOAD_WORDS", std::to_string(load_.payloadWords));
+    const gl::Program& program = device_.program({"lists/stress/insert.comp"}, defines);
+    useParams(pass.window, nodes, cut);
+    const Profiler::Scope time(device_.profiler(), "stress draw");
+    gl::dispatchLinear(program, nodes);
+  }
+
+  // The sum of each cell's lookups.
+  std::vector<uint32_t> lookUp(const Window& window) {
+    gl::Buffer sums(device_, "stress lookups", window.cells * sizeof(uint32_t));
+    useParams(window, 0, false);
+    const gl::Program& program =
+        device_.program({"lists/stress/lookup.comp"}, {{"LOOKUPS", std::to_string(lookupsPerCell) + "u"}});
+    {
+      const Profiler::Scope time(device_.profiler(), "stress lookup");
+      lists_.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
+      sums.bindStorage(STORAGE_COUNTERS);
+      gl::dispatchLinear(program, window.cells);
+      gl::storageBarrier();
+    }
+    const Profiler::Scope time(device_.profiler(), "stress check");
+    return sums.readValues<uint32_t>(window.cells);
+  }
+
+  void consume(const Window& window) {
+    const std::vector<uint32_t> sums = lookUp(window);
+    const Profiler::Scope time(device_.profiler(), "stress check");
+    const std::vector<shared::ListRun> runs = lists_.readRuns();
+    const std::vector<shared::ListKey> keys = lists_.readKeys();
+    const std::vector<uint32_t> payloads = lists_.readPayloads();
+    base::parallelFor(static_cast<long>(window.cells), [&](long i) {
+      const shared::ListRun& run = runs[static_cast<size_t>(i)];
+      const auto cell = static_cast<uint32_t>(window.firstCell + static_cast<size_t>(i));
+      if (size_t{run.first} + run.count > keys.size()) {
+        verification_.addBrokenRun(cell, run.first, run.count);
+        return;
+      }
+      std::vector<NodeKey> nodes(run.count);
+      uint32_t sum = 0;
+      for (uint32_t k = 0; k < run.count; ++k) {
+        const shared::ListKey& key = keys[run.first + k];
+        nodes[k] = {key.depth, key.id};
+        sum += lookupsFrom(key.depth);
+      }
+      verification_.addCell(cell, nodes,
+                            std::span(payloads).subspan(size_t{run.first} * load_.payloadWords,
+                                                        size_t{run.count} * load_.payloadWords));
+      if (sum != sums[static_cast<size_t>(i)]) verification_.addMisread(cell);
+    });
+  }
+
+  // Lookups of a cell that find a node of this depth before them: those at k / 64 >= depth, k = 1 ... 64.
+  static uint32_t lookupsFrom(float depth) {
+    const double first =
+        std::clamp(std::ceil(static_cast<double>(depth) * lookupsPerCell), 1.0, lookupsPerCell + 1.0);
+    return lookupsPerCell + 1 - static_cast<uint32_t>(first);
+  }
+
+  gl::Device& device_;
+  const Load load_;
+  Guard before_;
+  Lists lists_;
+  Guard after_;
+  gl::Buffer params_;
+  Verification verification_;
+};
+
+}  // namespace
+
+Measured measure(gl::Device& device, const Load& load, const ListOptions& options) {
+  return Measurement(device, load, options).run();
+}
+
+}  // namespace sfumato::lists::stress
