@@ -73,18 +73,22 @@ std::string faultOf(const Context& context, uint64_t bytes) {
   return {};
 }
 
-// The sizes up to the largest block that the driver promises, or those beyond it.
-Result ladder(const Context& context, bool promised) {
+// Sizes up to the limit of a block that the driver states, or beyond it.
+enum class Sizes { Promised, Beyond };
+
+Result sizeLadder(const Context& context, Sizes which) {
   std::vector<uint64_t> sizes = {64 * mebi, 128 * mebi, 256 * mebi};
   if (context.scale == Scale::Full)
     sizes.insert(sizes.end(), {512 * mebi, 1024 * mebi, 2048 * mebi - 4, 2048 * mebi, 2048 * mebi + 4,
                                3072 * mebi, 4096 * mebi - 4});
   const auto limit = static_cast<uint64_t>(context.device.limits().storageBlockBytes);
+  std::erase_if(sizes, [&](uint64_t bytes) { return (bytes <= limit) != (which == Sizes::Promised); });
+  if (sizes.empty())
+    return {Verdict::Skip, "no size that is tried is on this side of the limit of a block", {}, {}};
   const std::optional<uint64_t> room = freeMemory();
   Result result;
   result.figures = {{"largest block that is promised (MiB)", static_cast<int64_t>(limit / mebi)}};
   for (const uint64_t bytes : sizes) {
-    if (promised != (bytes <= limit)) continue;
     const std::string label = fmt::format("{} bytes", bytes);
     if (room && bytes + bytes / 4 + 512 * mebi > *room) {
       result.figures.emplace_back(label, "not tried: this machine has too little free memory");
@@ -102,18 +106,11 @@ Result ladder(const Context& context, bool promised) {
     if (fault.empty() || result.verdict == Verdict::Fail) continue;
     result.verdict = Verdict::Fail;
     result.finding = fmt::format("a buffer of {} bytes: {}", bytes, fault);
-    result.meaning = promised ? "large pools are not safe here: keep memory budgets below that size"
-                              : "the limit of a block is meant: the engine keeps to it";
+    result.meaning = which == Sizes::Promised
+                         ? "large pools are not safe here: keep memory budgets below that size"
+                         : "the limit of a block is meant: the engine keeps to it";
   }
   return result;
-}
-
-Result sizeLadder(const Context& context) {
-  return ladder(context, true);
-}
-
-Result sizeBeyond(const Context& context) {
-  return ladder(context, false);
 }
 
 Result outside(const Context& context) {
@@ -345,16 +342,17 @@ std::vector<Check> memoryChecks() {
   return {
       {"size-ladder",
        "memory",
-       "storage buffers up to the promised size: their last words and length()",
+       "storage buffers up to the stated limit, at most 256 MiB (full: 4 GiB - 4), their last words and "
+       "length()",
        all,
        {"SHORT_INDEX"},
-       sizeLadder},
+       [](const Context& context) { return sizeLadder(context, Sizes::Promised); }},
       {"size-beyond",
        "memory",
-       "larger ones, to 256 MiB (full: 4 GiB - 4): right, or refused: for information",
+       "the same of buffers over the limit: for information",
        {},
        {},
-       sizeBeyond},
+       [](const Context& context) { return sizeLadder(context, Sizes::Beyond); }},
       {"outside",
        "memory",
        "reads, writes and atomics past the end of a bound range, up to index 2^32 - 1: for information",
