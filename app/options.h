@@ -71,6 +71,23 @@ struct InfoOptions {
   bool json = false;
 };
 
+struct ValidateOptions {
+  DeviceChoice device;
+  std::vector<std::string> only;  // names of checks or groups; empty: all
+  std::vector<std::string> skip;
+  uint64_t seed = 1;
+  std::string scale = "small";
+  std::optional<double> timeoutSeconds;  // of one check; none: 60, or 180 at full scale
+  int jobs = 1;
+  bool list = false;
+  bool selfTest = false;
+  bool json = false;
+  bool tap = false;
+  std::string junit;     // path, empty: none
+  std::string runCheck;  // not for users: run this one here, as a process of its own
+  std::string mutant;    // its
+};
+
 struct StressOptions {
   // Device, command line, and of a scene what is seen of it.
   RenderOptions shot{.width = 320, .height = 180, .quality = "draft"};
@@ -89,28 +106,11 @@ struct StressOptions {
   std::string report;  // folder, empty: none
 };
 
-struct ValidateOptions {
-  DeviceChoice device;
-  std::vector<std::string> only;  // names of checks or groups; empty: all
-  std::vector<std::string> skip;
-  uint64_t seed = 1;
-  std::string scale = "small";
-  std::optional<double> timeoutSeconds;  // of one check; none: 60, or 180 at full scale
-  int jobs = 1;
-  bool list = false;
-  bool selfTest = false;
-  bool json = false;
-  bool tap = false;
-  std::string junit;     // path, empty: none
-  std::string runCheck;  // not for users: run this one here, as a process of its own
-  std::string mutant;    // its
-};
-
 // Each runs its subcommand; the result is the program's exit code. Errors are thrown as base::Error.
 int render(const RenderOptions& options);
 int compare(const CompareOptions& options);
 int info(const InfoOptions& options);
-int stress(const StressOptions& options);
 int validate(const ValidateOptions& options);
+int stress(const StressOptions& options);
 
 }  // namespace sfumato::app

@@ -125,6 +125,9 @@ int exitCode(const Report& report, bool good) {
 }
 
 int selfTest(const ValidateOptions& options, const std::vector<Check>& checks) {
+  if (!options.device.shaderDir.empty())
+    base::fail(base::ExitCode::Usage,
+               "--self-test: puts faults into the built-in shaders: leave out --shader-dir");
   const TemporaryFolder folder;
   const Report report = runAll(mutantRuns(checks, folder.path()), runOptions(options), "self-test");
   base::printResult(options.json ? json(report, {}) : selfTestTable(report));

@@ -17,14 +17,14 @@ int info(const InfoOptions&) {
              "info: this program was built without OpenGL: build it with SFUMATO_GL=ON");
 }
 
-int stress(const StressOptions&) {
-  base::fail(base::ExitCode::NoGl,
-             "stress: this program was built without OpenGL: build it with SFUMATO_GL=ON");
-}
-
 int validate(const ValidateOptions&) {
   base::fail(base::ExitCode::NoGl,
              "validate: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+}
+
+int stress(const StressOptions&) {
+  base::fail(base::ExitCode::NoGl,
+             "stress: this program was built without OpenGL: build it with SFUMATO_GL=ON");
 }
 
 }  // namespace sfumato::app

@@ -200,10 +200,10 @@ struct Device::Egl {
       return eglProblem("eglChooseConfig");
     std::vector<EGLint> attributes;
     if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
-    if (robust && hasWord(eglQueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness")) {
+    if (robust) {  // drivers that cannot tell of resets refuse it
       std::vector<EGLint> robustly = attributes;
       robustly.insert(robustly.end(),
-                      {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT});
+                      {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_KHR, EGL_LOSE_CONTEXT_ON_RESET_KHR});
       context = createContext(config, 4, 3, robustly);
       tellsResets = context != EGL_NO_CONTEXT;
     }

@@ -37,7 +37,7 @@ std::optional<Trust> trustOf(std::string_view text) {
 }  // namespace
 
 std::string_view name(Trust trust) {
-  constexpr std::string_view names[] = {"safe", "unsafe", "not shown"};
+  constexpr std::string_view names[] = {"safe", "unsafe", "no fault seen"};
   return names[static_cast<size_t>(trust)];
 }
 

@@ -20,10 +20,10 @@ struct Driver {
 enum class Trust {
   Safe,      // every check that the strategy depends on has passed
   Unsafe,    // one of them has not
-  NotShown,  // some could not be run, or could not have seen a fault
+  NotShown,  // nothing speaks against it, but some could not be run, or could not have seen a fault
 };
 
-// As it is shown: "safe", "unsafe", "not shown".
+// As it is shown: "safe", "unsafe", "no fault seen".
 std::string_view name(Trust trust);
 
 struct DriverVerdict {

@@ -48,6 +48,7 @@ size_t sumOf(const std::vector<size_t>& values) {
 
 // Tries that 99 % of `insertions` did not exceed, from the tallies of those that took more than one.
 size_t p99Of(std::span<const uint32_t> spins, size_t insertions) {
+  if (insertions == 0) return 0;
   size_t above = insertions / 100;
   for (size_t i = spins.size(); i-- > 0;) {
     if (spins[i] > above) return size_t{2} << i;
@@ -98,7 +99,7 @@ size_t Lists::nodeBytes() const {
 }
 
 size_t Lists::bytesFor(size_t cells, size_t nodes) const {
-  const size_t sorted = nodes / (LIST_SHORT_RUN + 1);
+  const size_t sorted = nodes / (LIST_SHORT_RUN_IN_BANKS + 1);
   const size_t reserved = linked() ? sizeof(ListLink) + payloadBytes_ : 0;
   return constantBytes + cellBytes(cells) + nodes * nodeBytes() + reserved + sorted * sizeof(uint32_t) +
          smallestBuffers;
@@ -109,8 +110,8 @@ size_t Lists::nodesAllowed(const gl::Device& device, size_t cells) const {
   if (!limited()) return most;
   const size_t fixed = bytesFor(cells, 0);
   if (fixed >= options_.budgetBytes) return 0;
-  // A cell number for every LIST_SHORT_RUN + 1 nodes, in 33rds of a byte.
-  const size_t parts = LIST_SHORT_RUN + 1;
+  // With a cell number for every so many nodes.
+  const size_t parts = LIST_SHORT_RUN_IN_BANKS + 1;
   return std::min(most, (options_.budgetBytes - fixed) * parts / (nodeBytes() * parts + sizeof(uint32_t)));
 }
 
@@ -414,7 +415,7 @@ std::vector<uint32_t> Lists::listSortedCells(gl::Device& device, size_t cells, c
   std::vector<uint32_t> firsts(lengthClasses, LIST_NOT_LISTED);
   uint32_t listed = 0;
   for (size_t i = 2; i < firsts.size(); ++i) {
-    const bool isLong = (size_t{1} << (i - 1)) > LIST_SHORT_RUN;
+    const bool isLong = (size_t{1} << (i - 1)) > shortRun(device);
     if (counted.tallies[i] == 0 || (!isLong && counted.tallies[i] > cells / 8)) continue;
     firsts[i] = listed;
     listed += counted.tallies[i];
@@ -439,19 +440,25 @@ void Lists::sortRuns(gl::Device& device, const RunsOfALength& runs) {
     gl::dispatchLinear(program, runs.count * invocations);
     gl::storageBarrier();
   };
-  const size_t size = std::clamp<size_t>(runs.length, smallestSort, LIST_SHORT_RUN);
+  const size_t piece = shortRun(device);
+  const size_t size = std::clamp(runs.length, smallestSort, piece);
   step(sortProgram(device, size, sortingNetwork(static_cast<int>(size))),
        std::max(runs.length / size, size_t{1}), size, 0);
-  if (runs.length <= LIST_SHORT_RUN) return;
+  if (runs.length <= piece) return;
   // Sorted pieces of a long run are merged, pairs of them at a time.
-  const gl::Program& merge = sortProgram(device, LIST_SHORT_RUN, mergingNetwork(LIST_SHORT_RUN));
+  const gl::Program& merge = sortProgram(device, piece, mergingNetwork(static_cast<int>(piece)));
   const gl::Program& exchange = device.program({"lists/exchange.comp"}, poolDefines(device));
-  for (size_t block = 2 * LIST_SHORT_RUN; block <= runs.length; block *= 2) {
+  for (size_t block = 2 * piece; block <= runs.length; block *= 2) {
     step(exchange, runs.length / 2, block, 0);
-    for (size_t distance = block / 4; distance >= LIST_SHORT_RUN; distance /= 2)
+    for (size_t distance = block / 4; distance >= piece; distance /= 2)
       step(exchange, runs.length / 2, block, distance);
-    step(merge, runs.length / LIST_SHORT_RUN, block, 1);
+    step(merge, runs.length / piece, block, 1);
   }
+}
+
+// Nodes that one invocation sorts.
+size_t Lists::shortRun(const gl::Device& device) const {
+  return bankDefines(device).empty() ? LIST_SHORT_RUN : LIST_SHORT_RUN_IN_BANKS;
 }
 
 const gl::Program& Lists::sortProgram(gl::Device& device, size_t size, const Network& network) const {

@@ -117,6 +117,7 @@ class Lists {
   Stored scatter(gl::Device& device, const Window& window, const Draw& draw);
   Stored link(gl::Device& device, const Window& window, const Draw& draw, Counted& counted, bool& sorted);
   bool unfinished();
+  size_t shortRun(const gl::Device& device) const;
   void sort(gl::Device& device, size_t cells, const Counted& counted);
   std::vector<uint32_t> listSortedCells(gl::Device& device, size_t cells, const Counted& counted);
   void sortRuns(gl::Device& device, const RunsOfALength& runs);

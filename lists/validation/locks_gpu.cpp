@@ -251,7 +251,7 @@ Result lockHash(const Context& context) {
     for (const size_t locks : {1, 7, 64, 4096})
       for (const bool fragments : {true, false})
         cases.push_back({.name = fmt::format("{} locks for {}", locks, fragments ? "fragments" : "compute"),
-                         .lockIndex = fmt::format("hash(id) % {}u", locks),
+                         .lockIndex = "hash(id) % (uint(guarded.length()) / WORDS)",
                          .locks = locks,
                          .fragments = fragments,
                          .patches = patches,
@@ -482,8 +482,8 @@ std::vector<Check> locksChecks() {
        lockNaive},
       {"lock-pixel",
        "locks",
-       "a lock for every pixel, 8 layers, section inside the loop, taken in three ways",
-       {"spinlock"},
+       "a lock for every pixel, 8 layers, taken in three ways: for information",
+       {},
        {"NO_LOCK"},
        lockPixel},
       {"lock-global", "locks", "every fragment on one lock: who starves?", {}, {"NO_LOCK"}, lockGlobal},
@@ -496,7 +496,7 @@ std::vector<Check> locksChecks() {
       {"lock-barrier",
        "locks",
        "a section in a compute shader may hold any of the five memory barriers",
-       {"spinlock"},
+       {"spinlock", "lockfree"},
        {"NO_LOCK"},
        barrierInSection},
       {"lock-publish",

@@ -64,9 +64,9 @@ std::vector<Run> mutantRuns(const std::vector<Check>& checks, const fs::path& fo
 
 bool caught(const Outcome& outcome) {
   const Result& result = outcome.result;
-  const bool ran = result.finding.find("does not compile") == std::string::npos &&
-                   result.finding.find("does not link") == std::string::npos;
-  return result.verdict != Verdict::Pass && ran;
+  const auto says = [&](const char* text) { return result.finding.find(text) != std::string::npos; };
+  return result.verdict != Verdict::Pass && !says("does not compile") && !says("does not link") &&
+         !says("ended with exit code");
 }
 
 bool allCaught(const Report& report) {

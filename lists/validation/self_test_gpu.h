@@ -28,8 +28,8 @@ std::string mutated(const EngineMutant& mutant);
 // The runs of all mutants of these checks. Mutated shaders of the engine are written below `folder`.
 std::vector<Run> mutantRuns(const std::vector<Check>& checks, const std::filesystem::path& folder);
 
-// Whether the fault was seen: the check failed, and not because the mutant does not compile; or it said that
-// it could not have seen a fault here, or could not run.
+// Whether the fault was seen: the check failed, and not because the mutant does not compile or its process
+// does not start; or it said that it could not have seen a fault here, or could not run.
 bool caught(const Outcome& outcome);
 bool allCaught(const Report& report);
 // For people: what became of each mutant, and how many were not seen.

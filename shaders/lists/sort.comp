@@ -34,14 +34,14 @@ void main() {
   uint count = min(run.count - offset, uint(LIST_SORT_SIZE));
 
   // What is not there sorts behind everything.
-#define E(i)                                 \
-  rank[i] = 0x7fffffff;                      \
-  id[i] = 0xffffffffu;                       \
-  from[i] = uint(i);                         \
-  if (uint(i) < count) {                     \
-    uvec2 key = listKeyAt(first + uint(i));  \
-    rank[i] = listRank(key.x);               \
-    id[i] = key.y;                           \
+#define E(i)                                \
+  rank[i] = 0x7fffffff;                     \
+  id[i] = 0xffffffffu;                      \
+  from[i] = uint(i);                        \
+  if (uint(i) < count) {                    \
+    uvec2 key = listKeyAt(first + uint(i)); \
+    rank[i] = listRank(key.x);              \
+    id[i] = key.y;                          \
   }
   LIST_EACH
 #undef E

@@ -58,12 +58,13 @@ SHARED_END
 // A head that stands for "somebody is changing this list".
 #define LIST_LOCKED 0xffffffffu
 // Tries for a lock, and nodes walked in all tries, before a node goes to the overflow list. Together they keep an
-// insertion far below the 65,535 loop iterations at which some drivers end every loop silently.
+// insertion far below the 65,535 loop iterations at which some drivers end every loop silently, and the time of lists
+// that are longer than anyone wants to insert into from growing with the square of their length.
 #ifndef LIST_SPIN_LIMIT
 #define LIST_SPIN_LIMIT 2048
 #endif
 #ifndef LIST_WALK_LIMIT
-#define LIST_WALK_LIMIT 16384
+#define LIST_WALK_LIMIT 1024
 #endif
 
 // Tallies behind the counters: lists by length (see lists::lengthClasses), the same as cursors, and insertions by
@@ -75,8 +76,9 @@ SHARED_END
 #define LIST_TALLY_SPINS (2 * LIST_LENGTH_CLASSES)
 #define LIST_TALLIES (2 * LIST_LENGTH_CLASSES + LIST_SPIN_CLASSES)
 #define LIST_NOT_LISTED 0xffffffffu  // a cursor of lengths whose cells need no list
-// Runs up to this length are sorted in registers.
+// Runs up to this length are sorted in registers; of pools of several banks, whose access is longer code, the second.
 #define LIST_SHORT_RUN 32
+#define LIST_SHORT_RUN_IN_BANKS 8
 // Cells that one invocation of the scan adds up.
 #define LIST_SCAN_BLOCK 64
 #define LIST_MAX_BANKS 4

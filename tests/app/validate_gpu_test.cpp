@@ -70,6 +70,7 @@ TEST_F(Validate, NamesWhatIsWrongWithACommandLine) {
                 {{"validate", "--timeout", "0"}, 2, "--timeout"},
                 {{"validate", "--seed", "-1"}, 2, "--seed"},
                 {{"validate", "--json", "--tap"}, 2, "--json"},
+                {{"validate", "--self-test", "--shader-dir", "folder"}, 2, "--shader-dir"},
                 {{"validate", "--run-check", "no-such"}, 2, "no-such: no such check"},
                 {{"validate", "--only", "ctx", "--junit", "folder"}, 3, "folder: is a folder"},
                 {{"validate", "--only", "ctx", "--junit", "missing/report.xml"},
@@ -180,7 +181,7 @@ TEST_F(ValidateLlvmpipe, FindsItsKnownFaultsAndIsSafeForTheEngine) {
     return checkIn(report, name).at("finding").get<std::string>();
   };
   // Faults that the engine is written around.
-  for (const char* name : {"live-out", "loop-limit"})
+  for (const char* name : {"live-out", "loop-limit", "opaque-tiles"})
     EXPECT_EQ(checkIn(report, name).at("verdict"), "FAIL") << name;
   EXPECT_NE(finding("loop-limit").find("ends after 65535 iterations"), std::string::npos)
       << finding("loop-limit");

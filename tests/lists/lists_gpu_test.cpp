@@ -72,7 +72,7 @@ class ListsGpu : public tests::GpuTest {
       defines.insert(defines.end(), more.begin(), more.end());
       const gl::Program& program = device().program({"lists/store_hashed.comp"}, defines);
       const uint32_t share = (load.nodes + order.draws - 1) / order.draws;
-      for (uint32_t first = 0; first < load.nodes; first += share) {
+      for (uint32_t first = 0; first < load.nodes && share > 0; first += share) {
         params_.writeValue(
             Params{load, order.factor, order.offset, first, std::min(share, load.nodes - first)});
         params_.bindUniform(UNIFORM_PASS);
@@ -111,8 +111,9 @@ class ListsGpu : public tests::GpuTest {
   }
 
   // The cells of all windows, one after the other.
-  Cells buildWindows(const Load& load, int payloadWords, const ListOptions& options) {
-    Lists lists(device(), "test lists", load.cells, static_cast<size_t>(payloadWords) * 4, options);
+  Cells buildWindows(const Load& load, int payloadWords, const ListOptions& options,
+                     const std::string& label = "test lists") {
+    Lists lists(device(), label, load.cells, static_cast<size_t>(payloadWords) * 4, options);
     Cells cells;
     statistics_ = lists.buildWindows(device(), drawOf(load, payloadWords), [&](const Window& window) {
       EXPECT_EQ(window.firstCell, cells.size());
@@ -149,6 +150,184 @@ TEST_F(ListsGpu, EveryStrategyGivesTheListsOfTheCpuWhateverTheOrderOfDraws) {
           EXPECT_EQ(statistics_.builds, 2);
         }
       }
+    }
+  }
+}
+
+TEST_F(ListsGpu, EveryStrategyKeepsEveryNodeOfLongLists) {
+  for (const Strategy strategy : strategies) {
+    for (const Load& load : {Load{512, 1, 40, 5}, Load{100000, 1, 1u << 20, 6}}) {
+      ASSERT_EQ(build(load, 1, {.strategy = strategy}), listsOnTheCpu(load)) << nameOf(strategy);
+      EXPECT_EQ(statistics_.distrusted, 0);
+      EXPECT_EQ(statistics_.longest, load.nodes);
+    }
+  }
+}
+
+TEST_F(ListsGpu, WhatABoundedLoopGivesUpIsInItsRunAllTheSame) {
+  for (const Strategy strategy : {Strategy::SpinLock, Strategy::LockFree}) {
+    // Bounds so low that most nodes take the fallback.
+    const Cells cells =
+        build(crowded, 1, {.strategy = strategy}, {}, {{"LIST_SPIN_LIMIT", "1"}, {"LIST_WALK_LIMIT", "3"}});
+    EXPECT_EQ(cells, listsOnTheCpu(crowded));
+    EXPECT_GT(statistics_.overflowed, crowded.nodes / 4);
+    EXPECT_EQ(statistics_.distrusted, 0);
+  }
+}
+
+TEST_F(ListsGpu, AStrategyThatLosesNodesIsFoundOutAndReplaced) {
+  // Without the lock updates are lost; `count` then does the build again.
+  EXPECT_EQ(build(crowded, 1, {.strategy = Strategy::SpinLock}, {}, {{"WITHOUT_LOCK", "1"}}),
+            listsOnTheCpu(crowded));
+  EXPECT_EQ(statistics_.strategy, Strategy::Count) << "no update was lost without the lock: this device "
+                                                      "cannot show that the lock works";
+  EXPECT_EQ(statistics_.distrusted, 1);
+  // Nor is `count` believed when its second draw stores other nodes than the first one counted.
+  EXPECT_EQ(build(crowded, 1, {}, {}, {{"ELSEWHERE_WHEN_SCATTERED", "1"}}), listsOnTheCpu(crowded));
+  EXPECT_EQ(statistics_.strategy, Strategy::Append);
+  EXPECT_EQ(statistics_.distrusted, 1);
+}
+
+TEST_F(ListsGpu, StatisticsAreExact) {
+  const Cells expected = listsOnTheCpu(mixed);
+  std::array<size_t, lengthClasses> lengths{};
+  size_t longest = 0;
+  for (const auto& cell : expected) {
+    size_t length = 0;
+    while (length < 2 ? length < cell.size() : cell.size() > size_t{1} << (length - 1)) ++length;
+    ++lengths[length];
+    longest = std::max(longest, cell.size());
+  }
+  for (const Strategy strategy : strategies) {
+    build(mixed, 1, {.strategy = strategy});
+    EXPECT_EQ(statistics_.lengths, lengths);
+    EXPECT_EQ(statistics_.longest, longest);
+    EXPECT_EQ(statistics_.cells, mixed.cells);
+    EXPECT_EQ(statistics_.windows, 1);
+    EXPECT_EQ(statistics_.nodeBytes, 12u);
+    EXPECT_GE(statistics_.capacity, mixed.nodes);
+    EXPECT_GE(statistics_.predictedBytes, statistics_.bytes * 9 / 10);
+    EXPECT_EQ(statistics_.maxSpins >= 1, strategy != Strategy::Count);
+    EXPECT_LE(statistics_.p99Spins, 2 * statistics_.maxSpins);
+  }
+}
+
+TEST_F(ListsGpu, PredictsBeforeANodeIsStored) {
+  Lists lists(device(), "predicted lists", mixed.cells, 4);
+  EXPECT_EQ(lists.predict(device(), mixed.cells, drawOf(mixed, 1)), mixed.nodes);
+  EXPECT_LT(device().memory().peakBytesByLabel().at("predicted lists"), mixed.nodes * 4);
+}
+
+TEST_F(ListsGpu, ABudgetHoldsAndNothingIsLost) {
+  for (const Strategy strategy : strategies) {
+    build(mixed, 1, {.strategy = strategy});
+    const size_t demand = statistics_.bytes;
+    for (const size_t percent : {100u, 60u, 25u, 10u}) {
+      const std::string label = fmt::format("{} {} %", nameOf(strategy), percent);
+      const ListOptions options{.strategy = strategy, .budgetBytes = demand * percent / 100};
+      ASSERT_EQ(buildWindows(mixed, 1, options, label), listsOnTheCpu(mixed)) << label;
+      EXPECT_EQ(statistics_.stored, mixed.nodes);
+      EXPECT_EQ(statistics_.demand, mixed.nodes);
+      EXPECT_EQ(statistics_.cells, mixed.cells);
+      EXPECT_LE(statistics_.bytes, options.budgetBytes) << label;
+      // What the ledger of the device saw, whatever the lists say of themselves.
+      EXPECT_LE(device().memory().peakBytesByLabel().at(label), options.budgetBytes) << label;
+      EXPECT_GE(statistics_.windows, static_cast<int>(100 / percent)) << label;
+    }
+  }
+}
+
+TEST_F(ListsGpu, ABudgetDownToOneNodeHolds) {
+  const Load load{40, 200, 10, 9};  // no cell has more than a few
+  const Cells expected = listsOnTheCpu(load);
+  const size_t longest = std::max_element(expected.begin(), expected.end(), [](const auto& a, const auto& b) {
+                           return a.size() < b.size();
+                         })->size();
+  for (const Strategy strategy : strategies) {
+    // The smallest budget with which no cell is an error.
+    size_t least = 0;
+    for (size_t budget = 400; least == 0 && budget < 4000; budget += 20) {
+      try {
+        EXPECT_EQ(buildWindows(load, 1, {.strategy = strategy, .budgetBytes = budget}), expected);
+        least = budget;
+      } catch (const base::Error& error) {
+        EXPECT_EQ(error.exitCode, base::ExitCode::Memory);
+        EXPECT_NE(std::string(error.what()).find("one cell alone holds"), std::string::npos);
+      }
+    }
+    EXPECT_GT(least, 0u) << nameOf(strategy);
+    EXPECT_LE(statistics_.capacity, 2 * longest) << nameOf(strategy);
+  }
+}
+
+TEST_F(ListsGpu, PoliciesDoWhatTheySay) {
+  for (const Strategy strategy : strategies) {
+    const Load load = crowded;
+    const size_t budget = 100000;
+    // Grow: past the budget.
+    EXPECT_EQ(build(load, 1, {.strategy = strategy, .budgetBytes = budget, .onOverflow = OnOverflow::Grow}),
+              listsOnTheCpu(load));
+    EXPECT_GT(statistics_.bytes, budget);
+    // Window: a build at once is refused, and told how many cells fit.
+    Lists lists(device(), "test lists", load.cells, 4, {.strategy = strategy, .budgetBytes = budget});
+    EXPECT_FALSE(lists.tryBuild(device(), load.cells, drawOf(load, 1)));
+    EXPECT_GT(lists.fitting(), 0u);
+    EXPECT_LT(lists.fitting(), load.cells);
+    const size_t fitting = lists.fitting();
+    EXPECT_TRUE(lists.tryBuild(device(), fitting, drawOf(load, 1)));
+    EXPECT_FALSE(lists.tryBuild(device(), fitting + 1, drawOf(load, 1)));
+    // Error: says how much it takes.
+    try {
+      build(load, 1, {.strategy = strategy, .budgetBytes = budget, .onOverflow = OnOverflow::Error});
+      FAIL() << "no error";
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.exitCode, base::ExitCode::Memory);
+      EXPECT_NE(std::string(error.what()).find("20000 nodes"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--list-memory"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(ListsGpu, OneCellOverTheBudgetIsAnErrorThatSaysHowMuch) {
+  for (const Strategy strategy : strategies) {
+    try {
+      buildWindows(oneCell, 3, {.strategy = strategy, .budgetBytes = 5000});
+      FAIL() << "no error";
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.exitCode, base::ExitCode::Memory);
+      EXPECT_NE(std::string(error.what()).find("one cell alone holds 500 nodes"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST_F(ListsGpu, PoolsOfSeveralBanksHoldTheSame) {
+  for (const Strategy strategy : strategies)
+    for (const int words : strategy == Strategy::Count ? std::vector{0, 3} : std::vector{1})
+      for (const Load& load : {mixed, crowded}) {
+        // Two to four banks.
+        const size_t bytes = size_t{load.nodes} * 12 / 2;
+        ASSERT_EQ(build(load, words, {.strategy = strategy, .bankBytes = bytes}), listsOnTheCpu(load))
+            << nameOf(strategy) << ", " << words << " words";
+        EXPECT_EQ(statistics_.distrusted, 0);
+      }
+}
+
+TEST_F(ListsGpu, MoreThanAllBanksHoldIsBuiltInWindows) {
+  for (const Strategy strategy : strategies) {
+    const ListOptions options{.strategy = strategy, .bankBytes = 12 * 2048};
+    EXPECT_THROW(build(mixed, 1, options), base::Error);
+    ASSERT_EQ(buildWindows(mixed, 1, options), listsOnTheCpu(mixed)) << nameOf(strategy);
+    EXPECT_GT(statistics_.windows, 7);
+  }
+}
+
+TEST_F(ListsGpu, AContainerIsBuiltAgainAndAgain) {
+  for (const Strategy strategy : strategies) {
+    Lists lists(device(), "test lists", mixed.cells, 4, {.strategy = strategy});
+    for (const Load& load : {Load{100, mixed.cells, 50, 1}, mixed, Load{0, mixed.cells, 1, 1}, mixed}) {
+      EXPECT_EQ(lists.build(device(), drawOf(load, 1)).stored, load.nodes);
+      ASSERT_EQ(read(lists, load, 1), listsOnTheCpu(load));
     }
   }
 }

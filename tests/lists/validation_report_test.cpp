@@ -60,10 +60,10 @@ TEST(ValidationReport, SaysWhichStrategiesAreSafe) {
   EXPECT_EQ(trustText(reportOf(all)), "spinlock=safe() lockfree=safe() append=safe() count=safe() ");
   EXPECT_EQ(
       trustText(mixed()),
-      "spinlock=unsafe(lock FAIL) lockfree=unsafe(swap HANG) append=not shown(push NO POWER) count=safe() ");
+      "spinlock=unsafe(lock FAIL) lockfree=unsafe(swap HANG) append=no fault seen(push NO POWER) count=safe() ");
   EXPECT_EQ(trustText(reportOf({outcomeOf(checks[1], Verdict::Crash)})),
-            "spinlock=unsafe(lock CRASH, 1 checks not run) lockfree=not shown(2 checks not run) "
-            "append=not shown(2 checks not run) count=not shown(1 checks not run) ");
+            "spinlock=unsafe(lock CRASH, 1 checks not run) lockfree=no fault seen(2 checks not run) "
+            "append=no fault seen(2 checks not run) count=no fault seen(1 checks not run) ");
 }
 
 TEST(ValidationReport, OnlyChecksThatTheEngineDependsOnBreakIt) {
@@ -88,7 +88,7 @@ TEST(ValidationReport, TheTableExplainsEachFailureAndEndsWithTheStrategies) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   EXPECT_TRUE(
       text.ends_with("strategies on this driver: spinlock unsafe (lock FAIL); lockfree unsafe (swap HANG); "
-                     "append not shown (push NO POWER); count safe\n"))
+                     "append no fault seen (push NO POWER); count safe\n"))
       << text;
 }
 

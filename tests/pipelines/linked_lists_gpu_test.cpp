@@ -143,7 +143,7 @@ TEST_F(LinkedListsGpuFrames, WindowsAreSeenNowhere) {
 // sample on an edge. Measured on llvmpipe: at most one pixel of 6912.
 TEST_F(LinkedListsGpuFrames, TilesAreSeenNowhere) {
   const Frame whole = drawInParts(device(), {});
-  for (const size_t tilePixels : {5000u, 900u, 60u}) {
+  for (const size_t tilePixels : {5000u, 900u, 200u}) {
     size_t done = 0;
     const Frame parts = drawInParts(device(), {.tilePixels = tilePixels, .onTile = [&] { ++done; }});
     EXPECT_EQ(parts.statistics.tiles, tilesOf(width, height, tilePixels).size());

@@ -9,7 +9,7 @@ layout(std430, binding = 1) writeonly buffer Written {
 };
 
 void main() {
-#ifndef MUTANT_NO_WRITE
+#if !defined(MUTANT_NO_WRITE) && !defined(WITHOUT_WRITE)
   written[gl_LocalInvocationIndex] = wanted[gl_LocalInvocationIndex];
 #endif
 }

@@ -1,7 +1,7 @@
 // Fragments of one pixel go through an interlocked section: each notes the layer of the one before it, and its own.
 #extension GL_ARB_fragment_shader_interlock : require
 
-#ifdef MUTANT_NO_INTERLOCK
+#if defined(MUTANT_NO_INTERLOCK) && !defined(WITHOUT_INTERLOCK)
 #define WITHOUT_INTERLOCK
 #endif
 

@@ -61,7 +61,7 @@ void operate(uint operation, uint instance) {
 // `side`: 0 or 1, the two partners; `lane`: the same number for both, below LANES.
 void litmus(uint side, uint lane) {
   // Looks for the partner: many in the first round, but only for a few lanes, in case there is none.
-  uint looks = atomicAdd(firstMeetings, 1u) < 64u ? 12000u : 500u;
+  uint looks = atomicAdd(firstMeetings, 1u) < 8u * GATE_TRIES ? 12000u : 500u;
   for (uint round = 0u; round < ROUNDS; ++round) {
     uint test = round % tests * 9u;
     bool two = operations[test + 8u] == 2u;

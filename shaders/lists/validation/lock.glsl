@@ -7,10 +7,10 @@
 // (before the lock is given back): numbers and words.
 #include "shaders/lists/validation/random.glsl"
 
-#ifdef MUTANT_NO_LOCK
+#if defined(MUTANT_NO_LOCK) && !defined(WITHOUT_LOCK)
 #define WITHOUT_LOCK
 #endif
-#ifdef MUTANT_NO_BARRIER
+#if defined(MUTANT_NO_BARRIER) && !defined(WITHOUT_BARRIER)
 #define WITHOUT_BARRIER
 #endif
 

@@ -1,9 +1,14 @@
 // 64 lookups of the transmittance a texel, along a march: by a walk over the linked list for each (WALK), or by a cursor
 // that moves forward along the run.
-#include "shaders/lists/banks.glsl"
-#include "shaders/lists/counting.glsl"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/lists.h"
 #ifdef WALK
-#include "shaders/lists/links.glsl"
+layout(std430, binding = STORAGE_LIST_HEADS) readonly buffer Heads {
+  uint heads[];
+};
+layout(std430, binding = STORAGE_LIST_NODES) readonly buffer Links {
+  ListLink links[];
+};
 layout(std430, binding = STORAGE_LIST_PAYLOADS) readonly buffer Payloads {
   float drops[];
 };
@@ -28,10 +33,10 @@ void main() {
   for (int step = 0; step < 64; ++step) {
     float depth = (float(step) + 0.5) / 64.0;
     float tau = 0.0;
-    uint node = listHeads[cell];
-    while (node != 0u && listLinks[0].links[node].depth <= depth) {
+    uint node = heads[cell];
+    while (node != 0u && links[node].depth <= depth) {
       tau += drops[node];
-      node = listLinks[0].links[node].next;
+      node = links[node].next;
     }
     sum += exp(-tau);
   }
