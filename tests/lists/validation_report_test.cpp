@@ -58,9 +58,9 @@ TEST(ValidationReport, SaysWhichStrategiesAreSafe) {
   std::vector<Outcome> all;
   for (const Check& check : checks) all.push_back(outcomeOf(check, Verdict::Pass));
   EXPECT_EQ(trustText(reportOf(all)), "spinlock=safe() lockfree=safe() append=safe() count=safe() ");
-  EXPECT_EQ(
-      trustText(mixed()),
-      "spinlock=unsafe(lock FAIL) lockfree=unsafe(swap HANG) append=no fault seen(push NO POWER) count=safe() ");
+  EXPECT_EQ(trustText(mixed()),
+            "spinlock=unsafe(lock FAIL) lockfree=unsafe(swap HANG) append=no fault seen(push NO POWER) "
+            "count=safe() ");
   EXPECT_EQ(trustText(reportOf({outcomeOf(checks[1], Verdict::Crash)})),
             "spinlock=unsafe(lock CRASH, 1 checks not run) lockfree=no fault seen(2 checks not run) "
             "append=no fault seen(2 checks not run) count=no fault seen(1 checks not run) ");
