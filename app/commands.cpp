@@ -144,8 +144,7 @@ void addLists(CLI::App& command, RenderOptions& options) {
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command.add_option(name, value, help)->group("Quality");
   };
-  add("--lists", options.lists,
-      "Build lists in this way: spinlock, lockfree, append or count; else what suits")
+  add("--lists", options.lists, "Build lists so: spinlock, lockfree, append, count; else what suits")
       ->type_name("NAME")
       ->check(oneOf(lists::strategyNames()));
   add("--list-memory", options.listMemory, "Most that the lists at one time may take, else what there is")
@@ -416,7 +415,7 @@ CLI::App& addInfo(CLI::App& program, InfoOptions& options, Verbosity& verbosity)
 CLI::App& addValidate(CLI::App& program, ValidateOptions& options, Verbosity& verbosity) {
   CLI::App& command =
       addCommand(program, "validate",
-                 "Check whether this GL driver can be trusted with atomics, lists and locks", "[OPTIONS]");
+                 "Check whether this GL driver can be trusted with atomics, lists, locks", "[OPTIONS]");
   addChecks(command, options);
   addReports(command, options);
   addDevice(command, options.device);

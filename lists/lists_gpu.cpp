@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "gl/commands.h"
+#include "lists/driver_verdict.h"
 #include "lists/sorting_network.h"
 #include "shaders/shared/bindings.h"
 
@@ -553,8 +554,15 @@ std::vector<uint32_t> Lists::readPayloads() const {
   return payloads_.readValues<uint32_t>(builtNodes_ * payloadWords());
 }
 
-Strategy chooseStrategy(const gl::Device&) {
-  return Strategy::Count;
+Strategy chooseStrategy(const gl::Device& device) {
+  const gl::DeviceNames& names = device.names();
+  const auto verdict = loadVerdict({names.vendor, names.renderer, names.version});
+  for (const Strategy strategy : {Strategy::Count, Strategy::Append, Strategy::LockFree, Strategy::SpinLock})
+    if (!verdict || verdict->trusted(nameOf(strategy))) return strategy;
+  base::fail(base::ExitCode::NoGl,
+             "{}: `sfumato validate` found that it builds no lists right: choose another --device, or one of "
+             "--lists all the same",
+             names.renderer);
 }
 
 }  // namespace sfumato::lists

@@ -153,7 +153,8 @@ class Lists {
   gl::BufferTexture linkedPayloadsView_;
 };
 
-// The strategy for a device: see docs/how_it_works.md for the rule and the figures behind it.
+// The strategy for a device, which has not been found unsafe there (lists/driver_verdict.h): see
+// docs/how_it_works.md for the rule and the figures behind it. Throws NoGl when all have.
 Strategy chooseStrategy(const gl::Device& device);
 
 }  // namespace sfumato::lists

@@ -159,7 +159,7 @@ Result noPower(Result result, std::string finding, std::string meaning) {
 
 const char* const excludesNobody = "locks do not keep others out here: build lists without them";
 const char* const waitsForItself =
-    "lanes that want one lock can wait for each other for ever: build lists without locks";
+    "who wants a lock can wait for ever (lock-barrier may say why): build lists without locks";
 const std::vector<std::string> allAcquires = {"ACQUIRE_EXCHANGE", "ACQUIRE_COMPARE", "ACQUIRE_HEAD"};
 
 std::string acquireName(const std::string& acquire) {
@@ -301,8 +301,9 @@ Result lockHash(const Context& context) {
 Result barrierInSection(const Context& context) {
   Tally tally;
   std::string bad;
-  for (const char* barrier : {"memoryBarrier", "memoryBarrierBuffer", "memoryBarrierImage",
-                              "memoryBarrierShared", "groupMemoryBarrier"}) {
+  const char* const barriers[] = {"memoryBarrier", "memoryBarrierBuffer", "memoryBarrierImage",
+                                  "memoryBarrierShared", "groupMemoryBarrier"};
+  for (const char* barrier : barriers) {
     const LockCase probe{.name = fmt::format("{}()", barrier),
                          .lockIndex = "hash(id) % 7u",
                          .locks = 7,
@@ -310,10 +311,16 @@ Result barrierInSection(const Context& context) {
                          .barrier = barrier};
     const LockRun locked = run(context, probe);
     tally.add(probe, locked);
-    if (locked.entered != probe.count || locked.lost != 0) bad += (bad.empty() ? "" : ", ") + probe.name;
+    const bool right = locked.entered >= probe.count - probe.count / 100 && locked.lost == 0;
+    if (!right) bad += (bad.empty() ? "" : ", ") + probe.name;
   }
-  Result result =
-      tally.result("in a compute shader that has branched, " + bad + " cannot be used", waitsForItself);
+  const std::string meaning =
+      "before an unlock in a compute shader, " + bad + " cannot be used: it stops or ends its invocations";
+  Result result = tally.result(meaning, meaning);
+  for (const char* barrier : barriers)
+    result.figures.emplace_back(
+        fmt::format("{}()", barrier),
+        bad.find(fmt::format("{}()", barrier)) == std::string::npos ? "right" : "wrong");
   const LockCase plain{.lockIndex = "hash(id) % 7u", .locks = 7, .count = 1024};
   const int64_t lostWithout = run(context, plain, "LOCK").lost;
   result.figures.emplace_back("lost without the lock", lostWithout);
@@ -410,11 +417,15 @@ Result lockTwo(const Context& context) {
     result.figures.emplace_back(fmt::format("{} accounts: gave up", accounts), locked.gaveUp);
     result.figures.emplace_back(fmt::format("{} accounts: max tries", accounts), locked.maxTries);
     if (result.verdict != Verdict::Pass) continue;
-    if (locked.gaveUp > 0) {
+    if (locked.gaveUp > starvingShare * count) {
       result.verdict = Verdict::Fail;
       result.finding = fmt::format("{} of {} invocations never got both of {} locks in {} tries",
                                    locked.gaveUp, count, accounts, spinLimit);
       result.meaning = "sections under two locks do not end here: the engine holds one at a time";
+    } else if (locked.gaveUp > 0) {
+      // What they did not move is missing: the sums tell nothing.
+      result.finding = fmt::format("{} of {} invocations gave up", locked.gaveUp, count);
+      result.meaning = "a bounded spin needs a fallback that loses nothing; the engine has one";
     } else if (wrong != 0) {
       result.verdict = Verdict::Fail;
       result.finding = fmt::format("{} of {} accounts hold the wrong sum", wrong, accounts);
@@ -495,8 +506,8 @@ std::vector<Check> locksChecks() {
        lockHash},
       {"lock-barrier",
        "locks",
-       "a section in a compute shader may hold any of the five memory barriers",
-       {"spinlock", "lockfree"},
+       "a section in a compute shader with each of the five memory barriers: for information",
+       {},
        {"NO_LOCK"},
        barrierInSection},
       {"lock-publish",

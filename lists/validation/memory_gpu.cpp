@@ -73,12 +73,18 @@ std::string faultOf(const Context& context, uint64_t bytes) {
   return {};
 }
 
-Result sizeLadder(const Context& context) {
+// Sizes up to the limit of a block that the driver states, or beyond it.
+enum class Sizes { Promised, Beyond };
+
+Result sizeLadder(const Context& context, Sizes which) {
   std::vector<uint64_t> sizes = {64 * mebi, 128 * mebi, 256 * mebi};
   if (context.scale == Scale::Full)
     sizes.insert(sizes.end(), {512 * mebi, 1024 * mebi, 2048 * mebi - 4, 2048 * mebi, 2048 * mebi + 4,
                                3072 * mebi, 4096 * mebi - 4});
   const auto limit = static_cast<uint64_t>(context.device.limits().storageBlockBytes);
+  std::erase_if(sizes, [&](uint64_t bytes) { return (bytes <= limit) != (which == Sizes::Promised); });
+  if (sizes.empty())
+    return {Verdict::Skip, "no size that is tried is on this side of the limit of a block", {}, {}};
   const std::optional<uint64_t> room = freeMemory();
   Result result;
   result.figures = {{"largest block that is promised (MiB)", static_cast<int64_t>(limit / mebi)}};
@@ -96,15 +102,13 @@ Result sizeLadder(const Context& context) {
       result.figures.emplace_back(label, "refused");
       continue;
     }
-    const bool promised = bytes <= limit;
-    result.figures.emplace_back(
-        label, fault.empty() ? (promised ? "right" : "right, though over the limit") : fault);
+    result.figures.emplace_back(label, fault.empty() ? "right" : fault);
     if (fault.empty() || result.verdict == Verdict::Fail) continue;
-    if (promised) result.verdict = Verdict::Fail;
-    result.finding =
-        fmt::format("a buffer of {} bytes{}: {}", bytes, promised ? "" : ", over the limit", fault);
-    result.meaning = promised ? "large pools are not safe here: keep memory budgets below that size"
-                              : "the limit of a block is meant: the engine keeps to it";
+    result.verdict = Verdict::Fail;
+    result.finding = fmt::format("a buffer of {} bytes: {}", bytes, fault);
+    result.meaning = which == Sizes::Promised
+                         ? "large pools are not safe here: keep memory budgets below that size"
+                         : "the limit of a block is meant: the engine keeps to it";
   }
   return result;
 }
@@ -338,10 +342,17 @@ std::vector<Check> memoryChecks() {
   return {
       {"size-ladder",
        "memory",
-       "storage buffers up to 256 MiB (full: 4 GiB - 4), their last words and length()",
+       "storage buffers up to the stated limit, at most 256 MiB (full: 4 GiB - 4), their last words and "
+       "length()",
        all,
        {"SHORT_INDEX"},
-       sizeLadder},
+       [](const Context& context) { return sizeLadder(context, Sizes::Promised); }},
+      {"size-beyond",
+       "memory",
+       "the same of buffers over the limit: for information",
+       {},
+       {},
+       [](const Context& context) { return sizeLadder(context, Sizes::Beyond); }},
       {"outside",
        "memory",
        "reads, writes and atomics past the end of a bound range, up to index 2^32 - 1: for information",

@@ -97,7 +97,7 @@ bool listLink(uint cell, uint node, uvec2 key, out uint tries) {
       } else {
         abandoned = true;
       }
-      memoryBarrierBuffer();
+      memoryBarrier();  // not memoryBarrierBuffer(): docs/drivers.md
       atomicExchange(listHeads[cell], unlocked);
     }
     ++tries;
@@ -122,7 +122,7 @@ bool listLink(uint cell, uint node, uvec2 key, out uint tries) {
     }
     if (walked < LIST_WALK_LIMIT) {
       setLinkNext(node, current);
-      memoryBarrierBuffer();
+      memoryBarrier();
       uint found = previous != 0u ? swapLinkNext(previous, current, node) : atomicCompSwap(listHeads[cell], current, node);
       placed = found == current;
     }

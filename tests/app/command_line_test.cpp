@@ -71,8 +71,12 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
 }
 
 TEST(CommandLine, ShowsHelpAndVersion) {
-  for (const Arguments& arguments : std::vector<Arguments>{
-           {"--help"}, {"-h"}, {"render", "--help"}, {"compare", "--help"}, {"info", "--help"}}) {
+  for (const Arguments& arguments : std::vector<Arguments>{{"--help"},
+                                                           {"-h"},
+                                                           {"render", "--help"},
+                                                           {"compare", "--help"},
+                                                           {"stress", "--help"},
+                                                           {"info", "--help"}}) {
     const Outcome outcome = runProgram(folder().path(), arguments);
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
