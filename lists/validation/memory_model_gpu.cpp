@@ -252,10 +252,12 @@ Result litmus(const Context& context, const std::vector<Litmus>& tests, const st
       return missing.empty();
     });
     // The engine builds lists in compute and in fragment shaders.
-    if (!missing.empty() && stages == Stages::VertexFragment)
-      result.finding = "not shown where vertices meet fragments: " + missing;
-    else if (!missing.empty())
+    if (!missing.empty() && stages == Stages::VertexFragment) {
+      if (result.verdict != Verdict::Fail)
+        result.finding = "not shown where vertices meet fragments: " + missing;
+    } else if (!missing.empty()) {
       unseen += (unseen.empty() ? "" : "; ") + name(stages) + ": " + missing;
+    }
     for (size_t t = 0; t < tests.size(); ++t) {
       const std::string label = name(stages) + " " + tests[t].name;
       result.figures.emplace_back(label, told(counts[t].with));
