@@ -368,8 +368,26 @@ void makeLampInSmoke(const fs::path& folder) {
   gltf.write(folder / "lamp_in_smoke.gltf");
 }
 
-// Figure 3.14.
-void makeManyLights(const fs::path& folder) {
+// The camera stands in the plume: steps begin at the eye, not at a face of the volume's box.
+void makeCameraInSmoke(const fs::path& folder) {
+  Gltf gltf = newScene();
+  addFloor(gltf);
+  addWall(gltf, 5);
+  const size_t stone = gltf.addMaterial({.name = "stone", .colour = {0.72f, 0.68f, 0.62f}});
+  for (int i = 0; i < 4; ++i)
+    gltf.addShape("column", column({1.7f * static_cast<float>(i) - 2.55f, 0, -2}, 3, 0.2f), stone);
+  json smoke = at({0, -0.6f, 0.6f});
+  smoke["scale"] = {4, 1.6, 4};
+  addSmoke(gltf, "plume.vdb", 1.1f, smoke, {0.95f, 0.94f, 0.92f}, 0.3f);
+  addSpot(gltf, 200, {-3.4f, 4, 0.2f}, {0.3f, 0.8f, -1.2f}, 0.3f, 0.42f);
+  addLamp(gltf, {1.1f, 1.2f, -0.6f}, {1, 0.62f, 0.3f}, 4);
+  addSky(gltf, 0.25f);
+  gltf.addCamera("camera", 0.9f, lookingAt({0, 1.35f, 1.1f}, {0, 1.35f, -2}));
+  gltf.write(folder / "camera_in_smoke.gltf");
+}
+
+// Figure 3.14, seen from outside the lights and from among them.
+void makeManyLights(const fs::path& folder, const char* name, const vec3& eye, const vec3& target) {
   Gltf gltf = newScene();
   addFloor(gltf);
   addWall(gltf, 3);
@@ -391,8 +409,8 @@ void makeManyLights(const fs::path& folder) {
     gltf.addLight("lamp", {{"type", "point"}, {"color", toJson(colour)}, {"intensity", 0.55}, {"range", 1.8}},
                   at(position));
   }
-  gltf.addCamera("camera", 0.6f, lookingAt({0.4f, 2.2f, 4.6f}, {0, 0.1f, 0}));
-  gltf.write(folder / "many_lights.gltf");
+  gltf.addCamera("camera", 0.6f, lookingAt(eye, target));
+  gltf.write(folder / name);
 }
 
 // Section 2.2.4: beside each object the same one with a flag.
@@ -442,7 +460,9 @@ void makeGallery(const fs::path& folder) {
   makeCrossedSmoke(folder);
   makeGrazing(folder);
   makeLampInSmoke(folder);
-  makeManyLights(folder);
+  makeCameraInSmoke(folder);
+  makeManyLights(folder, "many_lights.gltf", {0.4f, 2.2f, 4.6f}, {0, 0.1f, 0});
+  makeManyLights(folder, "camera_in_many_lights.gltf", {0.5f, 0.75f, 1.7f}, {-0.2f, 0.3f, -1});
   makeFlags(folder);
 }
 

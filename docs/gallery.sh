@@ -11,7 +11,7 @@ build/release/demos/make_gallery_scenes out/gallery
 for scene in out/gallery/*.gltf; do
   picture="docs/images/$(basename "${scene%.gltf}").png"
   quality=(--quality high)
-  if [[ $scene == */many_lights.gltf ]]; then quality+=(--shadow-res 512); fi # of 40 lamps, each with a cube of maps
+  if [[ $scene == *many_lights.gltf ]]; then quality+=(--shadow-res 512); fi # of 40 lamps, each with a cube of maps
   if [[ $scene == */many_lights.gltf ]]; then quality+=(--aov lights); fi
   if [[ $scene == */smoke.gltf ]]; then quality+=(--aov shadow-nodes); fi
   echo "== $picture"
