@@ -1,5 +1,6 @@
-// Sorts LIST_SORT_SIZE nodes or fewer in registers, an invocation each: a run, or a piece of a longer one. LIST_NETWORK is a sequence of S(i, j), which puts elements i < j in order; LIST_EACH
-// is E(i) for every element (lists/sorting_network.h).
+// Sorts LIST_SORT_SIZE nodes or fewer in registers, an invocation each: a run, or a piece of a longer one.
+// LIST_NETWORK is a sequence of S(i, j), which puts elements i < j in order; LIST_EACH is E(i) for every element
+// (lists/sorting_network.h).
 #include "shaders/lists/counting.glsl"
 #include "shaders/lists/order.glsl"
 #include "shaders/lists/pool.glsl"
@@ -52,13 +53,15 @@ void main() {
 #undef E
 #if PAYLOAD_WORDS > 0
   uint words[LIST_SORT_SIZE];
-  for (uint word = 0u; word < uint(PAYLOAD_WORDS); ++word) {
+  // Not told as a constant, so that the loop is not unrolled: drivers compile that for a quarter of a second.
+  uint payloadWords = count == 0u ? 0u : uint(PAYLOAD_WORDS);
+  for (uint word = 0u; word < payloadWords; ++word) {
 #define E(i) \
-    if (uint(i) < count) words[i] = listWord(first + uint(i), word);
+    if (uint(i) < count) words[i] = listWord(first + from[i], word);
     LIST_EACH
 #undef E
 #define E(i) \
-    if (uint(i) < count) setListWord(first + uint(i), word, words[from[i]]);
+    if (uint(i) < count) setListWord(first + uint(i), word, words[i]);
     LIST_EACH
 #undef E
   }

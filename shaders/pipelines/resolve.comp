@@ -43,7 +43,7 @@ struct PixelRay {
   vec3 towardsViewer;
   float metresPerDepth;
   vec2 width;  // m, of the square that the ray stands for: x + y depth
-  uint cell;  // of the light lists
+  ListRun lights;  // of its cell
 };
 
 uint work = 0u;  // loop iterations of this invocation, about
@@ -59,21 +59,27 @@ vec3 reflectedFrom(uint number, Surface surface, vec3 p, vec3 toViewer) {
   return brdf(surface, toLight, toViewer) * irradiance * cosine;
 }
 
+// Those that may reach something in the pixel: the directional ones, then its cell's list. One loop over both keeps a
+// shader that drivers take a second to compile from holding everything twice.
+uint lightsOf(PixelRay ray) {
+  return uint(params.options.z) + ray.lights.count;
+}
+
+ListedLight lightOf(PixelRay ray, uint i) {
+  uint directional = uint(params.options.z);
+  return i < directional ? ListedLight(i, -3e38, 3e38) : listedLight(ray.lights.first + i - directional);
+}
+
 // Emitted and reflected radiance towards the viewer, lit by every light that reaches it.
 vec3 shadeSurface(Surface surface, PixelRay ray, float depth) {
   vec3 p = ray.origin + depth * ray.perDepth;
   vec3 sum = surface.emissive;
-  for (uint light = 0u; light < uint(params.options.z); ++light) {
-    sum += reflectedFrom(light, surface, p, ray.towardsViewer);
-    work += 16u;
-  }
-  ListRun run = lightRun(ray.cell);
-  uint walked = 0u;
   bool reached = true;
-  while (reached && walked < min(run.count, LIGHT_WALK_LIMIT)) {
-    ListedLight listed = listedLight(run.first + walked);
-    reached = listed.front <= depth;
-    if (reached && depth <= listed.back) sum += reflectedFrom(listed.light, surface, p, ray.towardsViewer);
+  uint walked = 0u;
+  while (reached && walked < min(lightsOf(ray), LIGHT_WALK_LIMIT)) {
+    ListedLight at = lightOf(ray, walked);
+    reached = at.front <= depth;
+    if (reached && depth <= at.back) sum += reflectedFrom(at.light, surface, p, ray.towardsViewer);
     ++walked;
     work += 16u;
   }
@@ -200,15 +206,13 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
 
 vec3 scattered(Steps steps, PixelRay ray) {
   vec3 sum = vec3(0.0);
-  for (uint light = 0u; light < uint(params.options.z); ++light) sum += scatteredFrom(light, steps, ray, 0.0, 3e38);
   float farthest = steps.depth[steps.count - 1];
-  ListRun run = lightRun(ray.cell);
-  uint walked = 0u;
   bool reached = true;
-  while (reached && walked < min(run.count, LIGHT_WALK_LIMIT)) {
-    ListedLight listed = listedLight(run.first + walked);
-    reached = listed.front <= farthest;
-    if (reached) sum += scatteredFrom(listed.light, steps, ray, listed.front, listed.back);
+  uint walked = 0u;
+  while (reached && walked < min(lightsOf(ray), LIGHT_WALK_LIMIT)) {
+    ListedLight at = lightOf(ray, walked);
+    reached = at.front <= farthest;
+    if (reached) sum += scatteredFrom(at.light, steps, ray, at.front, at.back);
     ++walked;
   }
   if (walked == LIGHT_WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
@@ -271,7 +275,7 @@ void main() {
   ray.metresPerDepth = length(ray.perDepth);
   float width = 2.0 * view.halfExtent.y / float(view.size.y) * (place.split ? 0.5 : 1.0);
   ray.width = orthographic ? vec2(width, 0.0) : vec2(0.0, width);
-  ray.cell = lightCell(place.pixel, view.window);
+  ray.lights = lightRun(lightCell(place.pixel, view.window));
 
 #ifdef SMOKE
   MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
@@ -319,22 +323,24 @@ void main() {
     if (steps.count > 0) radiance += scattered(steps, ray);
     atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
 #endif
-    if (atSurface && passed < surfaces.count) {
-      PackedSurface stored = listedSurface(surfaces.first + passed);
-      if (!place.split || (stored.coverageObject >> place.number & 1u) != 0u) {
-        radiance += throughput * shadeSurface(unpackSurface(stored), ray, nextSurface);
-        throughput *= surfacePass(stored);
-      }
-      depth = max(depth, nextSurface);
-      ++passed;
-    } else if (atSurface) {
-      if (opaque < view.depthRange.y) {
+    if (atSurface) {
+      bool listed = passed < surfaces.count;
+      PackedSurface stored;
+      bool seen;
+      if (listed) {
+        stored = listedSurface(surfaces.first + passed);
+        seen = !place.split || (stored.coverageObject >> place.number & 1u) != 0u;
+      } else {
         uvec4 more = texelFetch(opaqueSurface1, texel, place.number);
-        PackedSurface stored = PackedSurface(opaqueWords.x, opaqueWords.y, opaqueWords.z, opaqueWords.w, more.x, more.y,
-                                             more.z, more.w, 0u, more.w & 0xffff0000u);
-        radiance += throughput * shadeSurface(unpackSurface(stored), ray, opaque);
+        stored = PackedSurface(opaqueWords.x, opaqueWords.y, opaqueWords.z, opaqueWords.w, more.x, more.y, more.z, more.w, 0u,
+                               more.w & 0xffff0000u);
+        seen = opaque < view.depthRange.y;
       }
-      walking = false;
+      if (seen) radiance += throughput * shadeSurface(unpackSurface(stored), ray, listed ? nextSurface : opaque);
+      if (listed && seen) throughput *= surfacePass(stored);
+      if (listed) depth = max(depth, nextSurface);
+      ++passed;
+      walking = listed;
     }
     if (maxComponent(throughput) < params.march.y) walking = false;
   }
