@@ -70,7 +70,7 @@ class Builder {
         inputs_(inputs),
         texels_(texels),
         knots_(knots),
-        opaque_(device.program({"scene/surface.vert", "deepshadow/opaque.frag"})),
+        opaque_(device.program({"scene/surface.vert", "deepshadow/opaque.frag"}, inputs.casters.defines)),
         writer_(device.program({"deepshadow/knots.comp"}, writerDefines(inputs))),
         viewBlock_(device, "shadow view", sizeof(shared::ViewParams)),
         passBlock_(device, "shadow pass", sizeof(shared::ShadowPassParams)),
@@ -153,12 +153,13 @@ class Builder {
     useFace(face);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
     const gl::Framebuffer noTarget({face.side, face.side});
-    gl::setDrawState(
-        {.program = &device_.program({"scene/surface.vert", "deepshadow/listed.frag"}, pass.defines),
-         .target = &noTarget,
-         .viewport = {0, 0, face.side, face.side},
-         .scissor = rowsOf(pass.window, face.side),
-         .depthClamp = true});
+    gl::ShaderDefines defines = inputs_.casters.defines;
+    defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+    gl::setDrawState({.program = &device_.program({"scene/surface.vert", "deepshadow/listed.frag"}, defines),
+                      .target = &noTarget,
+                      .viewport = {0, 0, face.side, face.side},
+                      .scissor = rowsOf(pass.window, face.side),
+                      .depthClamp = true});
     inputs_.casters.listed();
   }
 

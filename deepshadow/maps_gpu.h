@@ -27,6 +27,7 @@ struct Casters {
   std::function<void()> listed;  // translucent ones, opaque ones that do not shadow themselves; empty: none
   bool once = false;             // whether there are objects that shadow once
   bool notSelf = false;          // whether there are objects that do not shadow themselves
+  gl::ShaderDefines defines;     // of the programs that they are drawn with
 };
 
 // The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.

@@ -24,7 +24,7 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   const gl::Texture depthTest(device, "depth test",
                               {.format = gl::Format::Depth32F, .size = size, .samples = samples});
   std::vector<const gl::Texture*> colours = {&result.surface0, &result.surface1, &result.depth};
-  gl::ShaderDefines defines;
+  gl::ShaderDefines defines = inputs.geometry.defines();
   if (inputs.baseColour) {
     result.baseColour.emplace(
         device, "G-buffer base colour",

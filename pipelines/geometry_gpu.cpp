@@ -191,6 +191,10 @@ bool GeometryGpu::has(Layer layer) const {
   return std::any_of(draws_.begin(), draws_.end(), [&](const Draw& draw) { return draw.isIn(layer); });
 }
 
+gl::ShaderDefines GeometryGpu::defines() const {
+  return textures_.size() > 1 ? gl::ShaderDefines{{"TEXTURES", "1"}} : gl::ShaderDefines{};
+}
+
 void GeometryGpu::draw(Layer layer, bool cullBackFaces) const {
   drawData_.bindStorage(STORAGE_DRAWS);
   materialData_.bindStorage(STORAGE_MATERIALS);

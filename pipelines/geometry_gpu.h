@@ -26,6 +26,8 @@ class GeometryGpu {
   // shaders/scene/surface.vert. `cullBackFaces`: of materials that are not double-sided.
   void draw(Layer layer, bool cullBackFaces) const;
   bool has(Layer layer) const;
+  // For the programs that it is drawn with.
+  gl::ShaderDefines defines() const;
   bool hasShadowOnce() const { return hasShadowOnce_; }  // any material
   bool hasNotSelf() const { return hasNotSelf_; }        // any material that does not shadow its own instance
   size_t triangles() const { return triangles_; }

@@ -357,7 +357,8 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce(),
-                              .notSelf = geometry_.hasNotSelf()};
+                              .notSelf = geometry_.hasNotSelf(),
+                              .defines = geometry_.defines()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
   return deepshadow::Maps(device_, {.lights = scene_.lights,
                                     .casters = casters,

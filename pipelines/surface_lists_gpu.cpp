@@ -25,7 +25,8 @@ void storeSurfaces(gl::Device& device, const SurfaceListInputs& inputs, const li
   const Tile window = windowOf(inputs);
   const auto samples = static_cast<int>(inputs.gbuffer.samplePositions.size());
   const gl::Framebuffer noTarget({tile.width, tile.height}, samples);
-  gl::ShaderDefines defines = pass.defines;
+  gl::ShaderDefines defines = inputs.geometry.defines();
+  defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
   defines.emplace_back("SAMPLES", std::to_string(samples));
   inputs.view.bindUniform(UNIFORM_VIEW);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);

@@ -56,10 +56,16 @@ bool isStage(const std::string& name) {
 
 // The shaders of lists are left to the checks of the group `engine`, which run them.
 Result shaders(const Context& context) {
-  // What the engine defines when it compiles them: all ways to store a node, and small numbers.
+  // What the engine defines when it compiles them: all that a scene may have, and all ways to store a node.
   std::vector<gl::ShaderDefines> variants;
   for (const char* pass : {"0", "1", "2", "3", "4"})
-    variants.push_back({{"SAMPLES", "4"}, {"LIST_PASS", pass}});
+    variants.push_back({{"SAMPLES", "4"},
+                        {"TEXTURES", "1"},
+                        {"SMOKE", "1"},
+                        {"VOLUME_COUNT", "2"},
+                        {"SURFACES", "1"},
+                        {"SHADOW_OBJECTS", "1"},
+                        {"LIST_PASS", pass}});
   int64_t compiled = 0;
   Result result;
   for (const gl::EmbeddedShader& shader : gl::embeddedShaders()) {

@@ -36,9 +36,11 @@ float fragmentDepth() {
   return -vPositionView.z;
 }
 
-// A texture of the material, where its use reads it. Gradients are taken of what is interpolated, not of what
+// A texture of the material, where its use reads it. TEXTURES is defined when any material has one: drivers take long to
+// compile what samples textures. Gradients are taken of what is interpolated, not of what
 // the material made of it: the lanes beside a triangle, which they need, may read no storage.
 vec4 materialTexture(sampler2D image, int unit) {
+#ifdef TEXTURES
   int number = materialNumber();
   bool second = (materials[number].flags.y >> unit & 1) != 0;
   vec3 uRow = materials[number].uvTransforms[2 * unit].xyz;
@@ -50,6 +52,9 @@ vec4 materialTexture(sampler2D image, int unit) {
   return textureGrad(image, vec2(dot(uRow, uv), dot(vRow, uv)),
                      vec2(dot(uRow.xy, gradient.xy), dot(vRow.xy, gradient.xy)),
                      vec2(dot(uRow.xy, gradient.zw), dot(vRow.xy, gradient.zw)));
+#else
+  return vec4(1.0);
+#endif
 }
 
 // Linear base colour; alpha is coverage: 1 where the material is not BLEND, and cut at the cutoff for MASK.
