@@ -1,16 +1,15 @@
 // `sfumato stress`: builds lists of every kind under load, and judges every node of them.
-#include <unistd.h>
-
 #include <csignal>
 #include <filesystem>
 #include <set>
 
-#include "app/json_text.h"
 #include "app/shot.h"
 #include "app/stress.h"
 #include "app/stress_scene_gpu.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/interruption.h"
+#include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "gl/device.h"
@@ -24,16 +23,6 @@ using base::fail;
 namespace {
 
 namespace fs = std::filesystem;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-// The first Ctrl-C ends the test with the report so far, the second the program.
-void listenForInterrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-}
 
 fs::path pageOf(const StressOptions& options) {
   return fs::path(options.report) / "index.html";
@@ -112,23 +101,25 @@ void doRun(gl::Device& device, StressRun& run, int repeat) {
   }
 }
 
-void sweep(gl::Device& device, const StressOptions& options, StressResult& result) {
+void sweep(gl::Device& device, const StressOptions& options, const base::Interruption& interruption,
+           StressResult& result) {
   std::vector<StressRun> runs = plannedRuns(options);
   base::Progress progress("stress", static_cast<long>(runs.size()));
   for (StressRun& run : runs) {
-    if (interrupted != 0) break;
+    if (interruption.happened()) break;
     doRun(device, run, options.repeat);
     result.runs.push_back(std::move(run));
     progress.advance();
   }
 }
 
-void soak(gl::Device& device, const StressOptions& options, StressResult& result) {
+void soak(gl::Device& device, const StressOptions& options, const base::Interruption& interruption,
+          StressResult& result) {
   const Clock::time_point start = Clock::now();
   const double seconds = options.minutes * 60;
   base::Progress progress("soak", 1000);
   base::Random random(static_cast<uint64_t>(options.seed));
-  for (long shown = 0; interrupted == 0 && secondsSince(start) < seconds;) {
+  for (long shown = 0; !interruption.happened() && secondsSince(start) < seconds;) {
     StressRun run = drawnRun(options, random);
     doRun(device, run, options.repeat);
     result.runs.push_back(std::move(run));
@@ -140,7 +131,7 @@ void soak(gl::Device& device, const StressOptions& options, StressResult& result
 
 void tell(const StressOptions& options, const StressResult& result) {
   if (options.json)
-    base::printResult(text(jsonOf(result)));
+    base::printResult(base::jsonText(jsonOf(result)));
   else
     base::printResult(tableOf(result));
   if (options.report.empty()) return;
@@ -174,15 +165,15 @@ int stress(const StressOptions& options) {
   StressResult result{.device = device.names().renderer,
                       .commandLine = options.shot.commandLine,
                       .soak = options.minutes > 0};
-  listenForInterrupts();
+  const base::Interruption interruption({SIGINT});
   if (isOfScene(options))
     stressScene(
-        device, options, [] { return interrupted != 0; }, result);
+        device, options, [&] { return interruption.happened(); }, result);
   else if (result.soak)
-    soak(device, options, result);
+    soak(device, options, interruption, result);
   else
-    sweep(device, options, result);
-  result.interrupted = interrupted != 0;
+    sweep(device, options, interruption, result);
+  result.interrupted = interruption.happened();
   result.seconds = secondsSince(start);
 
   // A test of which nothing was built is an error, and no result.

@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/signalfd.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +18,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/interruption.h"
 
 namespace sfumato::lists::validation {
 namespace {
@@ -49,34 +49,6 @@ class Stream {
   int number_;
 };
 
-// While it lives, SIGINT and SIGTERM do not end this program but make its stream readable.
-class Interruption {
- public:
-  Interruption() : stream_(-1) {
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    sigprocmask(SIG_BLOCK, &signals, &before_);
-    stream_ = Stream(signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK));
-  }
-  ~Interruption() {
-    signalfd_siginfo taken;  // or it would end this program after all
-    while (read(stream_.number(), &taken, sizeof taken) > 0) {
-    }
-    sigprocmask(SIG_SETMASK, &before_, nullptr);
-  }
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
-
-  int stream() const { return stream_.number(); }
-  const sigset_t& signalsBefore() const { return before_; }
-
- private:
-  Stream stream_;
-  sigset_t before_;
-};
-
 struct Pipe {
   Stream read{-1};
   Stream write{-1};
@@ -91,7 +63,7 @@ Pipe makePipe() {
 
 class Child {
  public:
-  Child(const Command& command, size_t index, const sigset_t& signals) : index_(index) {
+  Child(const Command& command, size_t index) : index_(index) {
     std::vector<char*> arguments;
     for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
@@ -100,7 +72,7 @@ class Child {
     pid_ = fork();
     if (pid_ < 0)
       base::fail(base::ExitCode::Bug, "validate: a check cannot be started: {}", std::strerror(errno));
-    if (pid_ == 0) become(arguments, out.write.number(), err.write.number(), signals, parent);
+    if (pid_ == 0) become(arguments, out.write.number(), err.write.number(), parent);
     process_ = Stream(static_cast<int>(syscall(SYS_pidfd_open, pid_, 0)));
     out_ = std::move(out.read);
     err_ = std::move(err.read);
@@ -144,14 +116,12 @@ class Child {
 
  private:
   // In the new process: only system calls are safe here.
-  [[noreturn]] static void become(const std::vector<char*>& arguments, int out, int err,
-                                  const sigset_t& signals, pid_t parent) {
+  [[noreturn]] static void become(const std::vector<char*>& arguments, int out, int err, pid_t parent) {
     setpgid(0, 0);  // a Ctrl-C of the terminal is for the parent, which ends us
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
     const rlimit noCore{0, 0};
     setrlimit(RLIMIT_CORE, &noCore);
-    sigprocmask(SIG_SETMASK, &signals, nullptr);
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
@@ -204,12 +174,12 @@ bool wait(std::list<Child>& children, double timeoutSeconds, int interruption) {
 
 bool runCommands(const std::vector<Command>& commands, int jobs, double timeoutSeconds,
                  const std::function<void(size_t, const Ended&)>& onEnd) {
-  const Interruption interruption;
+  const base::Interruption interruption({SIGINT, SIGTERM});
   std::list<Child> children;
   size_t started = 0;
   while (started < commands.size() || !children.empty()) {
     while (started < commands.size() && children.size() < static_cast<size_t>(std::max(jobs, 1))) {
-      children.emplace_back(commands[started], started, interruption.signalsBefore());
+      children.emplace_back(commands[started], started);
       ++started;
     }
     if (wait(children, timeoutSeconds, interruption.stream())) {
