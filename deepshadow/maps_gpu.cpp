@@ -153,9 +153,8 @@ class Builder {
     useFace(face);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
     const gl::Framebuffer noTarget({face.side, face.side});
-    gl::ShaderDefines defines = inputs_.casters.defines;
-    defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
-    gl::setDrawState({.program = &device_.program({"scene/surface.vert", "deepshadow/listed.frag"}, defines),
+    gl::setDrawState({.program = &device_.program({"scene/surface.vert", "deepshadow/listed.frag"},
+                                                  gl::joined(inputs_.casters.defines, pass.defines)),
                       .target = &noTarget,
                       .viewport = {0, 0, face.side, face.side},
                       .scissor = rowsOf(pass.window, face.side),

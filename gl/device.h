@@ -17,6 +17,10 @@ namespace sfumato::gl {
 
 class Program;
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
+inline ShaderDefines joined(ShaderDefines defines, const ShaderDefines& more) {
+  defines.insert(defines.end(), more.begin(), more.end());
+  return defines;
+}
 
 // What the driver says of itself.
 struct DeviceNames {

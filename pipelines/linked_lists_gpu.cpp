@@ -35,9 +35,8 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)}};
   if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
-  for (const auto& define : volumes.defines()) defines.push_back(define);
   defines.emplace_back("SMOKE", "1");
-  return defines;
+  return gl::joined(defines, volumes.defines());
 }
 
 struct ResolveInputs {

@@ -25,8 +25,7 @@ void storeSurfaces(gl::Device& device, const SurfaceListInputs& inputs, const li
   const Tile window = windowOf(inputs);
   const auto samples = static_cast<int>(inputs.gbuffer.samplePositions.size());
   const gl::Framebuffer noTarget({tile.width, tile.height}, samples);
-  gl::ShaderDefines defines = inputs.geometry.defines();
-  defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+  gl::ShaderDefines defines = gl::joined(inputs.geometry.defines(), pass.defines);
   defines.emplace_back("SAMPLES", std::to_string(samples));
   inputs.view.bindUniform(UNIFORM_VIEW);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);

@@ -5,18 +5,12 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/hash.h"
 
 namespace sfumato::lists::stress {
 namespace {
 
-// A bijection of 32 bits with little bias (Wellons 2018, "lowbias32").
-uint32_t hash(uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ x >> 16;
-}
+using base::hash;
 
 // What the hash of a number is used for. shaders/lists/stress/load.glsl has the same.
 enum Use : uint32_t {

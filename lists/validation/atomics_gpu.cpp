@@ -7,13 +7,15 @@
 #include <cmath>
 #include <set>
 
+#include "base/hash.h"
 #include "gl/commands.h"
 #include "gl/texture.h"
-#include "lists/validation/hash.h"
 #include "lists/validation/probe_gpu.h"
 
 namespace sfumato::lists::validation {
 namespace {
+
+using base::hash;
 
 enum class Stage { Fragment, Compute, Vertex, Geometry };
 

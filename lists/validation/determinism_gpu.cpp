@@ -6,15 +6,17 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/hash.h"
 #include "gl/commands.h"
 #include "lists/lists_gpu.h"
-#include "lists/validation/hash.h"
 #include "lists/validation/probe_gpu.h"
 #include "lists/validation/runner.h"
 #include "shaders/shared/bindings.h"
 
 namespace sfumato::lists::validation {
 namespace {
+
+using base::hash;
 
 constexpr Strategy strategies[] = {Strategy::SpinLock, Strategy::LockFree, Strategy::Append, Strategy::Count};
 
@@ -59,11 +61,10 @@ Image render(const Context& context, const Load& load, Strategy strategy, uint32
   gl::Buffer order(device, "validation", 16);
   Lists lists(device, "validation lists", load.cells, sizeof(uint32_t), {.strategy = strategy});
   lists.build(device, [&](const Pass& pass) {
-    gl::ShaderDefines defines = pass.defines;
-    defines.insert(defines.end(), sizes.begin(), sizes.end());
     order.writeValue(std::array<uint32_t, 4>{hash(run) | 1u, hash(run + 1000), 0, 0});
     order.bindUniform(UNIFORM_PASS);
-    gl::dispatchLinear(probeProgram(context, {"image_store.comp"}, defines), load.nodes);
+    gl::dispatchLinear(probeProgram(context, {"image_store.comp"}, gl::joined(pass.defines, sizes)),
+                       load.nodes);
   });
   const gl::Buffer image = zeroWords(device, load.cells);
   lists.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);

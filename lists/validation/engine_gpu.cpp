@@ -3,13 +3,15 @@
 
 #include <algorithm>
 
+#include "base/hash.h"
 #include "gl/commands.h"
 #include "lists/lists_gpu.h"
-#include "lists/validation/hash.h"
 #include "lists/validation/probe_gpu.h"
 
 namespace sfumato::lists::validation {
 namespace {
+
+using base::hash;
 
 // Fragments of all tiles and invocations of all workgroups meet in each cell.
 struct Load {
@@ -41,8 +43,7 @@ gl::ShaderDefines definesOf(const Load& load) {
 
 // The first half of the items by fragments, the other by a dispatch.
 void store(const Context& context, const Load& load, const Pass& pass) {
-  gl::ShaderDefines defines = pass.defines;
-  for (const auto& define : definesOf(load)) defines.push_back(define);
+  const gl::ShaderDefines defines = gl::joined(pass.defines, definesOf(load));
   drawLayers(context.device, probeProgram(context, {"layers.vert", "engine.frag"}, defines), load.side,
              load.layers);
   gl::dispatchLinear(probeProgram(context, {"engine.comp"}, defines), load.fragments());

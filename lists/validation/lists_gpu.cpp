@@ -6,13 +6,15 @@
 #include <functional>
 #include <optional>
 
+#include "base/hash.h"
 #include "gl/commands.h"
 #include "gl/texture.h"
-#include "lists/validation/hash.h"
 #include "lists/validation/probe_gpu.h"
 
 namespace sfumato::lists::validation {
 namespace {
+
+using base::hash;
 
 constexpr uint32_t canary = 0xdeadbeefu;
 constexpr uint32_t canaryWords = 1024;

@@ -6,12 +6,15 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/hash.h"
 #include "gl/commands.h"
 #include "gl/device.h"
 #include "lists/validation/probe_gpu.h"
 
 namespace sfumato::lists::validation {
 namespace {
+
+using base::hash;
 
 // Tries for one lock before an invocation gives up: below the 65,535 iterations at which some drivers end
 // loops.
@@ -68,9 +71,10 @@ LockRun runOnce(const Context& context, const LockCase& probe, const std::string
   guarded.bindStorage(1);
   outcome.bindStorage(2);
   if (probe.fragments) {
-    const gl::ShaderDefines more = probe.patches.defines();
-    defines.insert(defines.end(), more.begin(), more.end());
-    drawPatches(context.device, probeProgram(context, {"layers.vert", "lock.frag"}, defines), probe.patches);
+    drawPatches(
+        context.device,
+        probeProgram(context, {"layers.vert", "lock.frag"}, gl::joined(defines, probe.patches.defines())),
+        probe.patches);
   } else {
     defines.emplace_back("COUNT", std::to_string(probe.count) + "u");
     gl::dispatchLinear(probeProgram(context, {probe.shader}, defines), probe.count);
@@ -384,11 +388,6 @@ Result lockPublish(const Context& context) {
 
 // What every account should hold after lock_two.comp: as many coins more or less as it was sent, modulo 2^32.
 std::vector<uint32_t> balances(uint32_t transfers, uint32_t accounts) {
-  const auto hash = [](uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-  };
   std::vector<uint32_t> expected(accounts, 0);
   for (uint32_t id = 0; id < transfers; ++id) {
     const uint32_t from = hash(id) % accounts;

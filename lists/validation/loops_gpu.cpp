@@ -3,13 +3,15 @@
 
 #include <algorithm>
 
+#include "base/hash.h"
 #include "base/random.h"
 #include "gl/commands.h"
-#include "lists/validation/hash.h"
 #include "lists/validation/probe_gpu.h"
 
 namespace sfumato::lists::validation {
 namespace {
+
+using base::hash;
 
 enum class Stage { Fragment, Compute };
 constexpr Stage stages[] = {Stage::Fragment, Stage::Compute};

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 
+#include "base/hash.h"
 #include "gl/commands.h"
 #include "gl/texture.h"
 #include "lists/validation/probe_gpu.h"
 
 namespace sfumato::lists::validation {
 namespace {
+
+using base::hash;
 
 constexpr const char* vertexFile = "raster_depth.vert";
 
@@ -127,11 +130,6 @@ Result discarded(const Context& context) {
       context,
       probeProgram({context.device}, {"raster_mesh.vert", "raster_count.frag"}, mesh.defines(context, side)),
       target, mesh.vertices());
-  const auto hash = [](uint32_t v) {
-    v = (v ^ (v >> 16)) * 0x7feb352du;
-    v = (v ^ (v >> 15)) * 0x846ca68bu;
-    return v ^ (v >> 16);
-  };
   Result result;
   for (const bool after : {false, true}) {
     gl::ShaderDefines defines = mesh.defines(context, side);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "shaders/shared/bindings.h"
@@ -11,6 +12,8 @@
 
 namespace sfumato::lists {
 namespace {
+
+using base::hash;
 
 constexpr Strategy strategies[] = {Strategy::SpinLock, Strategy::LockFree, Strategy::Append, Strategy::Count};
 
@@ -32,14 +35,6 @@ struct Params {
   Load load;
   uint32_t factor, offset, first, count;
 };
-
-uint32_t hash(uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ x >> 16;
-}
 
 // Node numbers of every cell, sorted by (depth, number).
 using Cells = std::vector<std::vector<uint32_t>>;

@@ -1,5 +1,6 @@
 // The nodes of a load: what stands in lists/stress/load.h, written for the GPU.
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/hash.glsl"
 #include "shaders/shared/stress.h"
 
 layout(std140, binding = UNIFORM_PASS) uniform StressPass {
@@ -19,14 +20,8 @@ const uint USE_CLUMP_DEPTH = 8u;
 const uint USE_FRAY = 9u;
 const uint USE_PAYLOAD = 64u;
 
-uint loadHash(uint x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
 uint loadDraw(uint number, uint use) {
-  return loadHash(number ^ loadHash(uint(stressParams.load.z) * 128u + use));
+  return hash(number ^ hash(uint(stressParams.load.z) * 128u + use));
 }
 
 uint loadPayload(uint number, uint word) {

@@ -1,6 +1,6 @@
 // Adds a float to a sum by compare-and-swap on its bits. The numbers are multiples of 1/256 whose sums floats hold
 // exactly, in whatever order. WITHOUT_ATOMIC, the control: a plain load and store.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 layout(std430, binding = 0) coherent buffer Sums {
   uint sums[];

@@ -2,7 +2,7 @@
 // depths, so that most nodes of a cell are told apart by their number alone.
 #define LIST_PAYLOAD uint
 #include "shaders/lists/insert.glsl"
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 #include "shaders/shared/linear_id.glsl"
 
 layout(std140, binding = UNIFORM_PASS) uniform Order {

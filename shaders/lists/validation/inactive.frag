@@ -1,6 +1,6 @@
 // Atomic operations where some lanes of a vector are not to take part: beside the triangle, after a return, after a
 // discard, in a branch, in a loop.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 flat in uint number;
 

@@ -1,5 +1,5 @@
 // A walk with everything that leaves a loop or an iteration early: break, continue, return, nested.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 layout(std430, binding = 0) readonly buffer Links {
   uint links[];

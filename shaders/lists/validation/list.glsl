@@ -4,7 +4,7 @@
 // HEAD_OF: the list of `item`; CAPACITY: nodes in the pool, the one that nobody uses counted.
 // PUSH_EXCHANGE, PUSH_COMPARE, PUSH_SORTED: how; PUSH_PLAIN, the control: by plain loads and stores.
 // HEADS_IN_IMAGE: heads are texels of an image of HEADS texels a row (PUSH_EXCHANGE and PUSH_PLAIN only).
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 layout(std430, binding = 0) coherent buffer Links {
   uint links[];

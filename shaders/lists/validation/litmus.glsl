@@ -4,7 +4,7 @@
 // little apart.
 //
 // QUALIFIER: of the memory. LANES: partners. ROUNDS: instances that each of them runs; LANES * ROUNDS is a power of two.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 layout(std430, binding = 0) QUALIFIER buffer Memory {
   uint memory[];  // x of all instances, then y, then words for stress

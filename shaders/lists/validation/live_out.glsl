@@ -1,6 +1,6 @@
 // Values that are made in a loop which the lanes of a vector leave at different times, and are used after it.
 // FORM: which way the value takes.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 #define FORM_LOADED 0       // loaded in the body of the loop
 #define FORM_COPIED 1       // the same, through another variable

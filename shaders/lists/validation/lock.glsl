@@ -5,7 +5,7 @@
 // ACQUIRE_EXCHANGE, ACQUIRE_COMPARE: how a lock is taken; ACQUIRE_HEAD: as in shaders/lists/insert.glsl, where the
 // word is both a list's head and its lock. WORDS, SPIN_LIMIT, QUALIFIER (of what is guarded), BARRIER
 // (before the lock is given back): numbers and words.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 #if defined(MUTANT_NO_LOCK) && !defined(WITHOUT_LOCK)
 #define WITHOUT_LOCK

@@ -3,7 +3,7 @@
 //
 // TYPE: uint or int. IN_BUFFER, IN_SHARED, IN_IMAGE: where the words are; IMAGE, LAYOUT: the image's type and format.
 // IN_COUNTER: atomic counters instead, one that goes up and one that goes down.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 const uint INVOCATIONS = 64u;  // invocations
 const uint OPERATIONS = 8u;

@@ -1,5 +1,5 @@
 // Nodes of QUADS x 16 bytes: a `next`, the item, words that are hashed from it, and their sum in the last word.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 struct Node {
   uvec4 quads[QUADS];

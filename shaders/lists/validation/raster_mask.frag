@@ -1,6 +1,6 @@
 // A MASK material: half of the pixels of a square of SIDE are cut out, before the push onto the pixel's list or
 // (DISCARD_AFTER) behind it. What is cut depends on a derivative, so that the lanes beside a triangle take part.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 layout(std430, binding = 0) coherent buffer Heads {
   uint heads[];

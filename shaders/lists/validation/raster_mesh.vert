@@ -1,6 +1,6 @@
 // The viewport cut into triangles that share their edges: CELLS x CELLS quads with their corners moved at random (and convex still), each
 // cut along one diagonal or the other; or (FAN) a fan of CELLS slivers a side around a point.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 #if defined(MUTANT_SWOLLEN) && !defined(SWOLLEN)
 #define SWOLLEN

@@ -1,6 +1,6 @@
 // Every invocation draws a ticket from one of ADDRESSES counters and notes that this ticket was drawn.
 // WITHOUT_ATOMIC, the control: a plain load and store.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 #ifdef MUTANT_NO_ATOMIC
 #define WITHOUT_ATOMIC

@@ -1,5 +1,5 @@
 // Walks the list of a pixel and says how many of its items are right. Bound and cycle-proof.
-#include "shaders/lists/validation/random.glsl"
+#include "shaders/shared/hash.glsl"
 
 layout(std430, binding = 0) readonly buffer Links {
   uint links[];

@@ -1,20 +1,13 @@
 // A node of hashed depth in [0, 1) for every pixel and layer.
 #define LIST_PAYLOAD float
 #include "shaders/lists/insert.glsl"
+#include "shaders/shared/hash.glsl"
 #include "shaders/shared/view.h"
 
 layout(std140, binding = UNIFORM_VIEW) uniform View {
   ViewParams view;
 };
 flat in uint vLayer;
-
-uint hash(uint x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ x >> 16;
-}
 
 void main() {
   uint cell = uint(int(gl_FragCoord.y) * view.size.x + int(gl_FragCoord.x));

@@ -15,20 +15,13 @@ struct Payload {
 #define LIST_PAYLOAD Payload
 #endif
 #include "shaders/lists/insert.glsl"
+#include "shaders/shared/hash.glsl"
 #include "shaders/shared/linear_id.glsl"
 
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   uvec4 params;  // nodes, cells, distinct depths, seed
   uvec4 more;    // x, y: node = (x * invocation + y) mod nodes; z: first invocation; w: invocations
 };
-
-uint hash(uint x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ x >> 16;
-}
 
 void main() {
   if (linearId() >= more.w) return;
