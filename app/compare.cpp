@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/json_text.h"
 #include "app/options.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "image/heat_map.h"
@@ -158,7 +158,7 @@ int compare(const CompareOptions& options) {
   comparison.averaged = factor;
   if (!options.heatMap.empty()) writeHeatMap(options, a, b, comparison.difference.maximum);
   if (options.json)
-    base::printResult(text(toJson(options, comparison)));
+    base::printResult(base::jsonText(toJson(options, comparison)));
   else if (base::verbosity() != base::Verbosity::Quiet)
     print(options, comparison, b.channels);
 

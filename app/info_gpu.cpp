@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "app/json_text.h"
 #include "app/options.h"
+#include "base/json_text.h"
 #include "base/log.h"
 #include "gl/device.h"
 
@@ -80,7 +80,7 @@ int info(const InfoOptions& options) {
   const auto devices = gl::listDevices();
   const gl::Device used({.choice = options.device.device, .shaderDir = options.device.shaderDir});
   if (options.json)
-    base::printResult(text(toJson(devices, used)));
+    base::printResult(base::jsonText(toJson(devices, used)));
   else
     print(devices, used);
   return 0;

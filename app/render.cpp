@@ -6,11 +6,11 @@
 #include <set>
 
 #include "app/aov_files.h"
-#include "app/json_text.h"
 #include "app/options.h"
 #include "app/shot.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "image/image_file.h"
@@ -240,9 +240,9 @@ Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_
     seconds.push_back(secondsSince(frameStart));
   }
   base::note("frame: {:.2f} s", seconds.back());
-  drawn.statistics = text(nlohmann::json{{"device", drawn.device},
-                                         {"startup", {{"seconds", startupSeconds}}},
-                                         {"frame", {{"seconds", seconds}}}});
+  drawn.statistics = base::jsonText(nlohmann::json{{"device", drawn.device},
+                                                   {"startup", {{"seconds", startupSeconds}}},
+                                                   {"frame", {{"seconds", seconds}}}});
   return drawn;
 }
 

@@ -1,6 +1,6 @@
 #include "app/statistics_gpu.h"
 
-#include "app/json_text.h"
+#include "base/json_text.h"
 
 namespace sfumato::app {
 namespace {
@@ -60,7 +60,7 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
   }
   result["memory"] = {{"peak_bytes", device.memory().peakBytes()},
                       {"peak_bytes_by_label", device.memory().peakBytesByLabel()}};
-  return text(result);
+  return base::jsonText(result);
 }
 
 }  // namespace sfumato::app

@@ -85,6 +85,20 @@ std::string setting(const StressRun& run) {
                      run.synthetic->height, run.synthetic->layers, run.synthetic->payloadWords * 4);
 }
 
+// A bar for each load, which are the plot's categories, and strategy.
+void addBars(Plot& plot, const Runs& runs, const std::function<double(const StressRun&)>& value) {
+  for (const std::string& strategy : distinct<std::string>(runs, strategyOf)) {
+    Series series{.name = strategy};
+    for (const std::string& load : plot.categories)
+      series.points.emplace_back(
+          0,
+          mean(where(runs,
+                     [&](const StressRun& run) { return run.load == load && strategyOf(run) == strategy; }),
+               value));
+    plot.series.push_back(series);
+  }
+}
+
 Plot sideBySide(const Runs& largest) {
   Plot plot{.title = "Strategies side by side",
             .caption = "Time to build and resolve, a node: " + setting(*largest.front()) + ", no budget.",
@@ -92,16 +106,7 @@ Plot sideBySide(const Runs& largest) {
             .yTitle = "ns a node",
             .logarithmicY = true,
             .categories = distinct<std::string>(largest, loadOf)};
-  for (const std::string& strategy : distinct<std::string>(largest, strategyOf)) {
-    Series series{.name = strategy};
-    for (const std::string& load : plot.categories)
-      series.points.emplace_back(
-          0,
-          mean(where(largest,
-                     [&](const StressRun& run) { return run.load == load && strategyOf(run) == strategy; }),
-               cost));
-    plot.series.push_back(series);
-  }
+  addBars(plot, largest, cost);
   return plot;
 }
 
@@ -243,19 +248,9 @@ Plot lookupRates(const Runs& largest) {
             .kind = Plot::Kind::Bars,
             .yTitle = "million a second",
             .categories = distinct<std::string>(largest, loadOf)};
-  for (const std::string& strategy : distinct<std::string>(largest, strategyOf)) {
-    Series series{.name = strategy};
-    for (const std::string& load : plot.categories)
-      series.points.emplace_back(
-          0,
-          mean(where(largest,
-                     [&](const StressRun& run) { return run.load == load && strategyOf(run) == strategy; }),
-               [](const StressRun& run) {
-                 return run.lookupSeconds > 0 ? static_cast<double>(run.lookups) / run.lookupSeconds / 1e6
-                                              : 0;
-               }));
-    plot.series.push_back(series);
-  }
+  addBars(plot, largest, [](const StressRun& run) {
+    return run.lookupSeconds > 0 ? static_cast<double>(run.lookups) / run.lookupSeconds / 1e6 : 0;
+  });
   return plot;
 }
 

@@ -49,7 +49,7 @@ FormatTraits traits(Format format) {
   return {};
 }
 
-GLint wrapping(Wrapping wrap) {
+GLint wrapping(Wrap wrap) {
   constexpr GLint values[] = {GL_REPEAT, GL_CLAMP_TO_EDGE, GL_MIRRORED_REPEAT};
   return values[static_cast<int>(wrap)];
 }

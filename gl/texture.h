@@ -11,6 +11,7 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/object.h"
+#include "scene/sampling.h"
 
 namespace sfumato::gl {
 
@@ -20,23 +21,16 @@ void deleteFramebuffer(unsigned name);
 enum class Format { R32F, R32UI, R32I, RGBA8, SRGB8A8, RGBA16F, RGBA32UI, Depth32F };
 enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32F };
 enum class Filter { Nearest, Linear };
-enum class Minify {  // within a level, then between levels
-  Nearest,
-  Linear,
-  NearestMipmapNearest,
-  LinearMipmapNearest,
-  NearestMipmapLinear,
-  LinearMipmapLinear
-};
-enum class Wrapping { Repeat, ClampToEdge, MirroredRepeat };
+using scene::Minify;
+using scene::Wrap;
 
 struct TextureDescription {
   Format format = Format::RGBA8;
   glm::ivec3 size{1, 1, 1};  // texels; z > 1 makes it 3D
   Filter filter = Filter::Nearest;
   std::optional<Minify> minify;  // as `filter`, without mipmaps, where none is given
-  Wrapping wrapS = Wrapping::ClampToEdge;
-  Wrapping wrapT = Wrapping::ClampToEdge;
+  Wrap wrapS = Wrap::ClampToEdge;
+  Wrap wrapT = Wrap::ClampToEdge;
   int samples = 0;  // a pixel; 0: not a multisample texture (1 is one, with its sample in the middle)
 };
 

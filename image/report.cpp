@@ -5,28 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/markup.h"
 #include "image/heat_map.h"
 #include "image/report/files.h"
 
 namespace sfumato::image {
 namespace {
 
+using base::escapedForMarkup;
 using Json = nlohmann::json;
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 // JSON that a browser takes for nothing else within a <script>.
 std::string scriptText(const Json& json) {
@@ -74,12 +61,12 @@ std::string figure(const std::string& title, const std::string& caption) {
   return fmt::format(
       "<figure><h2>{}</h2><div class=\"plot\"><canvas></canvas></div><figcaption>{}</figcaption>"
       "</figure>\n",
-      escaped(title), escaped(caption));
+      escapedForMarkup(title), escapedForMarkup(caption));
 }
 
 std::string tableRow(const std::vector<std::string>& cells, const char* tag) {
   std::string text;
-  for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+  for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escapedForMarkup(cell));
   return text;
 }
 
@@ -94,7 +81,7 @@ std::string tableText(const Table& table) {
       "<section><h2>{}</h2><div "
       "class=\"scroll\"><table><thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table>"
       "</div><p class=\"caption\">{}</p></section>\n",
-      escaped(table.title), tableRow(table.header, "th"), rows, escaped(table.caption));
+      escapedForMarkup(table.title), tableRow(table.header, "th"), rows, escapedForMarkup(table.caption));
 }
 
 // The colours of CountMaps, from none to most.
@@ -130,14 +117,14 @@ std::string reportPage(const Report& report) {
   }
   std::string facts;
   for (const auto& [name, value] : report.facts)
-    facts += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));
+    facts += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escapedForMarkup(name), escapedForMarkup(value));
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" "
       "content=\"width=device-width\">\n<title>{0}</title>\n<style>\n{1}</style>\n</head>\n"
       "<body>\n<header><h1>{0}</h1>\n<p class=\"{2}\">{3}</p>\n<dl>\n{4}</dl></header>\n<main>\n{5}</main>\n",
-      escaped(report.title), report::css(), report.good ? "good" : "bad", escaped(report.verdict), facts,
-      body);
+      escapedForMarkup(report.title), report::css(), report.good ? "good" : "bad",
+      escapedForMarkup(report.verdict), facts, body);
   page += "<script>\n" + std::string(report::chartJs()) + "</script>\n";
   page +=
       "<script>\nconst palette = " + scriptText(palette()) + ";\nconst drawn = " + scriptText(drawn) + ";\n";

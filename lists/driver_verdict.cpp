@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/version.h"
 
 namespace sfumato::lists {
@@ -86,7 +87,7 @@ void saveVerdict(const DriverVerdict& verdict) {
   if (problem)
     base::fail(base::ExitCode::Input, "{}: cannot be made: {}", file.parent_path().string(),
                problem.message());
-  base::writeFile(file, text.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+  base::writeFile(file, base::jsonText(text));
 }
 
 }  // namespace sfumato::lists

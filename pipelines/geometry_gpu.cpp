@@ -78,9 +78,9 @@ gl::Texture uploadTexture(gl::Device& device, const Texture& texture, bool srgb)
   description.format = srgb ? gl::Format::SRGB8A8 : gl::Format::RGBA8;
   description.size = {texture.width, texture.height, 1};
   description.filter = texture.nearest ? gl::Filter::Nearest : gl::Filter::Linear;
-  description.minify = static_cast<gl::Minify>(texture.minify);
-  description.wrapS = static_cast<gl::Wrapping>(texture.wrapS);
-  description.wrapT = static_cast<gl::Wrapping>(texture.wrapT);
+  description.minify = texture.minify;
+  description.wrapS = texture.wrapS;
+  description.wrapT = texture.wrapT;
   return gl::Texture(device, "textures", description, std::as_bytes(std::span(texture.rgba)));
 }
 

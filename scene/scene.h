@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lights/light.h"
+#include "scene/sampling.h"
 
 namespace sfumato::scene {
 
@@ -28,18 +29,6 @@ struct Camera {
 
 using lights::Light;
 using lights::LightType;
-
-enum class Wrap { Repeat, ClampToEdge, MirroredRepeat };
-
-// How a texture is read where it is smaller on screen: filter within a level, then between levels.
-enum class Minify {
-  Nearest,
-  Linear,
-  NearestMipmapNearest,
-  LinearMipmapNearest,
-  NearestMipmapLinear,
-  LinearMipmapLinear
-};
 
 // 8-bit RGBA as stored in the file; the use says whether RGB is sRGB (base colour, emissive, specular
 // colour).

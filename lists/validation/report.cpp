@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
+#include "base/markup.h"
 #include "base/version.h"
 
 namespace sfumato::lists::validation {
@@ -137,27 +139,16 @@ std::string json(const Report& report, const std::vector<StrategyTrust>& trusts)
                              {"engine_safe", !breaksTheEngine(report)},
                              {"checks", checks},
                              {"strategies", safe}};
-  return text.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return base::jsonText(text);
 }
 
 namespace {
 
 // Text as an XML attribute may have it; what XML cannot hold is shown as `?`.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c >= ' ' && c < 127 ? c : '?';
-  }
-  return result;
+std::string escaped(std::string text) {
+  for (char& c : text)
+    if (c < ' ' || c >= 127) c = '?';
+  return base::escapedForMarkup(text);
 }
 
 // The element that says how a test case ended; empty for a pass.

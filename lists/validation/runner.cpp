@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_text.h"
 
 namespace sfumato::lists::validation {
 
@@ -17,7 +18,7 @@ constexpr Verdict verdicts[] = {Verdict::Pass,  Verdict::Fail, Verdict::Hang,
                                 Verdict::Crash, Verdict::Skip, Verdict::NoPower};
 
 std::string oneLine(const json& text) {
-  return text.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  return base::jsonText(text, -1);
 }
 
 // The last line that is not empty.

@@ -115,12 +115,7 @@ TEST_F(BadInput, OfSmokeIsNamed) {
 
 class OddInput : public BadInput {
  protected:
-  void SetUp() override {
-    if (tests::testDevice() != nullptr) return;
-    const char* ci = std::getenv("CI");
-    if (ci != nullptr && std::string(ci) == "true") FAIL() << tests::whyNoDevice();
-    GTEST_SKIP() << tests::whyNoDevice();
-  }
+  void SetUp() override { tests::needDevice(); }
   image::Image drawn(const GltfBuilder& gltf, const std::string& name = "odd.gltf") {
     folder.write(name, gltf.text());
     const Outcome outcome = render({name});

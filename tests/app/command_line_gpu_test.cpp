@@ -98,12 +98,7 @@ class CommandLineGpu : public testing::Test {
 // The same where a frame is drawn: skips without a device.
 class CommandLineRender : public CommandLineGpu {
  protected:
-  void SetUp() override {
-    if (tests::testDevice() != nullptr) return;
-    const char* ci = std::getenv("CI");
-    if (ci != nullptr && std::string(ci) == "true") FAIL() << tests::whyNoDevice();
-    GTEST_SKIP() << tests::whyNoDevice();
-  }
+  void SetUp() override { tests::needDevice(); }
 };
 
 // ---- bad input -------------------------------------------------------------------------------------------

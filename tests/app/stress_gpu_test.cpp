@@ -27,12 +27,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 class Stress : public testing::Test {
  protected:
-  void SetUp() override {
-    if (tests::testDevice() != nullptr) return;
-    const char* ci = std::getenv("CI");
-    if (ci != nullptr && std::string(ci) == "true") FAIL() << tests::whyNoDevice();
-    GTEST_SKIP() << tests::whyNoDevice();
-  }
+  void SetUp() override { tests::needDevice(); }
 
   // A small run of one load and all strategies, with more arguments.
   Outcome run(Arguments more, const Surroundings& surroundings = {}) const {

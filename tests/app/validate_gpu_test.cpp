@@ -30,12 +30,7 @@ class Validate : public testing::Test {
 // The same where checks are run: skips without a device.
 class ValidateDevice : public Validate {
  protected:
-  void SetUp() override {
-    if (tests::testDevice() != nullptr) return;
-    const char* ci = std::getenv("CI");
-    if (ci != nullptr && std::string(ci) == "true") FAIL() << tests::whyNoDevice();
-    GTEST_SKIP() << tests::whyNoDevice();
-  }
+  void SetUp() override { tests::needDevice(); }
 };
 
 // The same on the driver whose faults are known.

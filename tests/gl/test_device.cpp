@@ -37,12 +37,16 @@ const std::string& whyNoDevice() {
   return attempt().problem;
 }
 
+void needDevice() {
+  if (testDevice() != nullptr) return;
+  const char* ci = std::getenv("CI");
+  if (ci != nullptr && std::string(ci) == "true") FAIL() << whyNoDevice();
+  GTEST_SKIP() << whyNoDevice();
+}
+
 void GpuTest::SetUp() {
-  if (testDevice() == nullptr) {
-    const char* ci = std::getenv("CI");
-    if (ci != nullptr && std::string(ci) == "true") FAIL() << whyNoDevice();
-    GTEST_SKIP() << whyNoDevice();
-  }
+  needDevice();
+  if (testDevice() == nullptr) return;
   messagesBefore_ = device().debugMessages().size();
 }
 

@@ -12,6 +12,9 @@ namespace sfumato::tests {
 gl::Device* testDevice();
 const std::string& whyNoDevice();
 
+// For SetUp(): skips the test without a device, and says why; fails it when CI=true.
+void needDevice();
+
 // A fixture whose tests skip without GL (and fail without it when CI=true), and fail on any driver message of
 // medium severity or above.
 class GpuTest : public testing::Test {

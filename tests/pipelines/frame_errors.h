@@ -1,6 +1,8 @@
 // How a frame of the GPU is held against the reference.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -43,6 +45,17 @@ inline PixelErrors errors(const image::Image& image, const image::Image& referen
     if (!(off <= 0.02 * (mean + std::abs(double(reference.values[i]))))) ++failing;
   }
   return {static_cast<double>(failing) / values, mean, difference.meanRatio, difference.relativeRmse};
+}
+
+// Keeps both pictures of the scene `name`, and prints how far they are apart.
+inline PixelErrors compareFrames(const std::string& name, const image::Image& image,
+                                 const image::Image& reference) {
+  keep(name, image);
+  keep(name + "_reference", reference);
+  const PixelErrors found = errors(image, reference);
+  fmt::print("{}: failing {:.4f}, mean ratio {:.5f}, relative RMSE {:.4f}\n", name, found.failingFraction,
+             found.meanRatio, found.relativeRmse);
+  return found;
 }
 
 }  // namespace sfumato::pipelines

@@ -1,7 +1,9 @@
 #include "tests/pipelines/known_scenes.h"
 
+#include <cctype>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace sfumato::tests {
 
@@ -345,6 +347,24 @@ std::vector<KnownScene> knownScenes() {
   return {planeUnderPointLight(), planeUnderSpotLight(), crossedPanes(),      paneBeforeSmoke(),
           smokeBeforePane(),      smokeOverFloor(),      glassBoxOverFloor(), veilsOverWall(),
           shinySpheres(),         smokeAndGlass()};
+}
+
+std::vector<std::string> namesOf(const std::vector<KnownScene>& scenes) {
+  std::vector<std::string> names;
+  for (const KnownScene& scene : scenes) names.push_back(scene.name);
+  return names;
+}
+
+KnownScene named(const std::vector<KnownScene>& scenes, const std::string& name) {
+  for (const KnownScene& scene : scenes)
+    if (scene.name == name) return scene;
+  throw std::out_of_range(name);
+}
+
+std::string testName(std::string sceneName) {
+  for (char& c : sceneName)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return sceneName;
 }
 
 }  // namespace sfumato::tests

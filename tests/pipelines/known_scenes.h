@@ -71,4 +71,10 @@ KnownScene smokeAndGlass();         // a bit of everything: spot, point and sun,
 
 std::vector<KnownScene> knownScenes();  // all of the above
 
+std::vector<std::string> namesOf(const std::vector<KnownScene>& scenes);
+// Throws std::out_of_range where there is none of that name.
+KnownScene named(const std::vector<KnownScene>& scenes, const std::string& name);
+// As GoogleTest takes it: letters, digits and underscores only.
+std::string testName(std::string sceneName);
+
 }  // namespace sfumato::tests

@@ -33,31 +33,14 @@ class LinkedListsGpuFrames : public tests::GpuTest {
   }
 };
 
-class LinkedListsGpu : public LinkedListsGpuFrames, public testing::WithParamInterface<std::string> {
- protected:
-  static KnownScene scene(const std::string& name) {
-    for (KnownScene& known : tests::knownScenes())
-      if (known.name == name) return known;
-    throw std::out_of_range(name);
-  }
-};
-
-std::vector<std::string> sceneNames() {
-  std::vector<std::string> names;
-  for (const KnownScene& known : tests::knownScenes()) names.push_back(known.name);
-  return names;
-}
+class LinkedListsGpu : public LinkedListsGpuFrames, public testing::WithParamInterface<std::string> {};
 
 TEST_P(LinkedListsGpu, DrawsWhatTheReferenceDraws) {
-  const KnownScene known = scene(GetParam());
+  const KnownScene known = tests::named(tests::knownScenes(), GetParam());
   const Frame frame = draw(known, fine);
   const image::Image reference =
       renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
-  keep(known.name, frame.radiance);
-  keep(known.name + "_reference", reference);
-  const PixelErrors found = errors(frame.radiance, reference);
-  fmt::print("{}: failing {:.4f}, mean ratio {:.5f}, relative RMSE {:.4f}\n", known.name,
-             found.failingFraction, found.meanRatio, found.relativeRmse);
+  const PixelErrors found = compareFrames(known.name, frame.radiance, reference);
   // Shadow edges fall between texels: a few pixels lie on one. Measured: 0.0020 and 0.0004 at most.
   EXPECT_LT(found.failingFraction, 0.005);
   EXPECT_NEAR(found.meanRatio, 1.0, 0.001);
@@ -250,15 +233,8 @@ TEST_P(TruthGpu, IsMetAtMediumAndHighQuality) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TruthGpu, testing::Values("two_lights", "sun"));
 
-// GoogleTest takes letters, digits and underscores only.
-std::string testName(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(KnownScenes, LinkedListsGpu, testing::ValuesIn(sceneNames()), testName);
+INSTANTIATE_TEST_SUITE_P(KnownScenes, LinkedListsGpu, testing::ValuesIn(tests::namesOf(tests::knownScenes())),
+                         [](const auto& info) { return tests::testName(info.param); });
 
 }  // namespace
 }  // namespace sfumato::pipelines

@@ -2,8 +2,6 @@
 // against the CPU reference, and bounds on acne and leaks over light angles and shadow resolutions.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <numbers>
 
@@ -39,16 +37,8 @@ class ThesisGpu : public tests::GpuTest {
 
 class ThesisScenesGpu : public ThesisGpu, public testing::WithParamInterface<std::string> {};
 
-std::vector<std::string> sceneNames() {
-  std::vector<std::string> names;
-  for (const KnownScene& known : tests::thesisScenes()) names.push_back(known.name);
-  return names;
-}
-
 TEST_P(ThesisScenesGpu, LookLikeTheReference) {
-  const std::vector<KnownScene> scenes = tests::thesisScenes();
-  const KnownScene& known =
-      *std::find_if(scenes.begin(), scenes.end(), [](const KnownScene& s) { return s.name == GetParam(); });
+  const KnownScene known = tests::named(tests::thesisScenes(), GetParam());
   Quality quality = fine;
   if (known.scene.lights.size() > 10)
     quality.shadowResolution = 512;  // the maps of 60 lights are 60 times as large
@@ -56,11 +46,7 @@ TEST_P(ThesisScenesGpu, LookLikeTheReference) {
   if (known.name == "camera in smoke") quality.stepVoxels = 0.1;
   const Frame frame = draw(known, quality);
   const image::Image expected = reference(known, quality.stepVoxels);
-  keep(known.name, frame.radiance);
-  keep(known.name + "_reference", expected);
-  const PixelErrors found = errors(frame.radiance, expected);
-  fmt::print("{}: failing {:.4f}, mean ratio {:.5f}, relative RMSE {:.4f}\n", known.name,
-             found.failingFraction, found.meanRatio, found.relativeRmse);
+  const PixelErrors found = compareFrames(known.name, frame.radiance, expected);
   // Edges of shadows fall between texels: the pixels on one may fail. Measured: 0.0051, and 0.0020 of the
   // mean.
   EXPECT_LT(found.failingFraction, 0.006);
@@ -68,15 +54,9 @@ TEST_P(ThesisScenesGpu, LookLikeTheReference) {
   EXPECT_EQ(frame.statistics.cutWalks, 0u);
 }
 
-// GoogleTest takes letters, digits and underscores only.
-std::string testName(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Lindbeck2015, ThesisScenesGpu, testing::ValuesIn(sceneNames()), testName);
+INSTANTIATE_TEST_SUITE_P(Lindbeck2015, ThesisScenesGpu,
+                         testing::ValuesIn(tests::namesOf(tests::thesisScenes())),
+                         [](const auto& info) { return tests::testName(info.param); });
 
 // Largest shortfall of a pixel, in units of what a surface that faces the light would send.
 double worstShortfall(const image::Image& image, const image::Image& expected) {
