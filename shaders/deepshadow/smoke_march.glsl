@@ -49,8 +49,8 @@ bool marchStep(SmokeRay ray, inout SmokeMarch march, out vec2 knot) {
     float nextTau = march.tau + sigma * (to - march.depth) * ray.metresPerDepth;
     // tau may be off by -log(1 + x) to -log(1 - x), x = bound / T; these lie within, and need no logarithm.
     float x = ray.bound * exp(nextTau);
-    float tauMin = nextTau - 2.0 * x / (2.0 + x);
-    float tauMax = x < 1.0 ? nextTau + x + 0.5 * x * x : 3e38;
+    float tauMin = nextTau - x / (1.0 + x);
+    float tauMax = nextTau + x;
     float run = to - march.segmentDepth;
     float newMin = max(march.slopeMin, (tauMin - march.segmentTau) / run);
     float newMax = min(march.slopeMax, (tauMax - march.segmentTau) / run);
