@@ -1,6 +1,7 @@
 // `sfumato render`: files to a scene, the scene to a frame, the frame to files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -56,6 +57,24 @@ void addDefaults(const RenderOptions& options, scene::Scene& scene, std::vector<
                media[i].scale, scene::fittingOpticalDepth);
   }
   scene::addDefaultSet(scene, scene::boundsOf(media), yfovOf(options), aspectOf(options));
+}
+
+bool glows(const scene::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
+    return material.unlit || material.emissive != glm::vec3(0.f);
+  });
+}
+
+// Sets come without lights as often as with them.
+void lightTheDark(const RenderOptions& options, scene::Scene& scene) {
+  if (!scene.lights.empty()) return;
+  if (glows(scene)) {
+    base::warn("{}: no lights: only what glows is seen", options.scene);
+  } else {
+    scene::addDefaultLights(scene);
+    base::warn("{}: no lights: two directional ones are added: put lights into the file to choose them",
+               options.scene);
+  }
 }
 
 // The camera that --camera names, the first one, or nothing.
@@ -260,8 +279,7 @@ Shot makeShot(const RenderOptions& options) {
   addVolumes(options, shot.scene);
   shot.media = scene::readMedia(shot.scene);
   if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
-  if (shot.scene.lights.empty())
-    base::warn("{}: no lights: the picture will be black but for what glows", options.scene);
+  lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
   shot.aovs = wantedAovs(options);

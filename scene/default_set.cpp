@@ -168,6 +168,11 @@ void addDefaultSet(Scene& scene, const Bounds& smoke, double yfov, double aspect
   scene.cameras.push_back(camera);
 }
 
+void addDefaultLights(Scene& scene) {
+  scene.lights.push_back(directionalLight("key", {-0.5, 1, 0.6}, {4.4, 3.9, 3.3}));
+  scene.lights.push_back(directionalLight("fill", {0.8, 0.4, 0.5}, {0.5, 0.65, 0.85}));
+}
+
 double fittingScale(const volumes::Medium& medium) {
   double logarithms = 0;
   for (int axis = 0; axis < 3; ++axis) {
