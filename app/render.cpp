@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "base/log.h"
+#include "base/size_text.h"
 #include "base/version.h"
 #include "image/image_file.h"
 #include "pipelines/reference.h"
@@ -208,9 +209,8 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
               scene.materials.size(), scene.lights.size());
   for (size_t i = 0; i < shot.media.size(); ++i) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
-    base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {:.1f} MiB\n", scene.volumes[i].file,
-                grid.name, grid.size.x, grid.size.y, grid.size.z,
-                static_cast<double>(grid.values.size() * sizeof(float)) / 0x1p20);
+    base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {}\n", scene.volumes[i].file, grid.name,
+                grid.size.x, grid.size.y, grid.size.z, base::sizeText(grid.values.size() * sizeof(float)));
   }
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");

@@ -16,6 +16,7 @@
 #define STORAGE_LIST_COUNTERS 5
 #define STORAGE_LIGHTS 6            // LightData[]
 #define STORAGE_AOVS 7              // AovPixel[]
+#define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
 #define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
