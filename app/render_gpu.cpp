@@ -21,7 +21,9 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& 
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
     frame = pipeline.render(shot.camera, options.width, options.height, quality,
-                            {.aovs = shot.aovs, .onTile = [&] { progress.advance(); }});
+                            {.aovs = shot.aovs, .countLookups = !options.statistics.empty(), .onTile = [&] {
+                               progress.advance();
+                             }});
     seconds.push_back(secondsSince(start));
   }
   return frame;

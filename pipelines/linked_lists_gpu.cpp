@@ -8,6 +8,7 @@
 #include "gl/program.h"
 #include "pipelines/aovs_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
+#include "pipelines/receivers_gpu.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
@@ -49,6 +50,7 @@ struct ResolveInputs {
   const GeometryGpu& geometry;
   const Quality& quality;
   Tile window;
+  bool countLookups;
 };
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -132,6 +134,25 @@ void readRays(const gl::Buffer& rays, const Split& split, size_t rayCount, const
         wanted->second);
 }
 
+// Adds what the window's pixels looked up; that of a split pixel is the sum over its samples.
+void readLookups(const gl::Buffer& lookups, const Split& split, size_t rayCount, const ResolveInputs& inputs,
+                 Lookups& all) {
+  const size_t pixels = inputs.window.pixels();
+  const size_t further = inputs.gbuffer.samplePositions.size() - 1;
+  const auto ofRays = lookups.readValues<glm::uvec2>(rayCount);
+  const auto groups = split.groups.readValues<uint32_t>(pixels);
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    glm::u64vec2 sum = ofRays[pixel];
+    if (groups[pixel] != 0)
+      for (size_t i = 0; i < further; ++i) sum += ofRays[pixels + (groups[pixel] - 1) * further + i];
+    all.lights += sum.x;
+    all.shadows += sum.y;
+    all.mostLights = std::max<size_t>(all.mostLights, sum.x);
+    all.mostShadows = std::max<size_t>(all.mostShadows, sum.y);
+  }
+  all.pixels += pixels;
+}
+
 size_t mostRays(const gl::Device& device) {
   return static_cast<size_t>(device.limits().storageBlockBytes) / sizeof(shared::RayState);
 }
@@ -148,11 +169,13 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  const gl::Program& program =
-      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.volumes, inputs.geometry, samples));
+  gl::ShaderDefines defines = resolveDefines(inputs.volumes, inputs.geometry, samples);
+  if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
+  gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec2) : 0);
   shared::ResolveParams params = resolveParams(inputs);
   params.options.w = static_cast<int>(rayCount);
 
@@ -167,6 +190,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
     rays.bindStorage(STORAGE_RAYS);
     split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
     counters.bindStorage(STORAGE_COUNTERS);
+    lookups.bindStorage(STORAGE_LOOKUPS);
     inputs.lights.bind();
     inputs.shadows.bind();
     inputs.volumes.bind();
@@ -180,6 +204,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   frame.statistics.splitPixels += split.count;
   frame.statistics.resolveDispatches += dispatches;
   readRays(rays, split, rayCount, inputs, frame);
+  if (inputs.countLookups) readLookups(lookups, split, rayCount, inputs, frame.statistics.lookups);
   return true;
 }
 
@@ -193,6 +218,7 @@ struct TileInputs {
   shared::ViewParams view;  // of the whole image
   int width = 0;
   int height = 0;
+  bool countLookups = false;
 };
 
 // Draws a frame tile by tile.
@@ -202,6 +228,9 @@ class TilePainter {
       : device_(device),
         inputs_(inputs),
         faces_(shadowFacesOf(inputs.shadows)),
+        hasListedLights_(std::any_of(
+            inputs.lights.begin(), inputs.lights.end(),
+            [](const lights::Light& light) { return light.type != lights::LightType::Directional; })),
         windowPixels_(std::min(windowPixels, mostPixels(device))),
         view_(device, "camera view", sizeof(shared::ViewParams)),
         frame_(frame) {}
@@ -234,31 +263,35 @@ class TilePainter {
   bool tryDrawWindow(const GBuffer& gbuffer, const Tile& window) {
     const bool smallest = window.pixels() == 1;
     useView(gbuffer.tile, window);
+    const auto surfaces = [&] {
+      const Profiler::Scope time(device_.profiler(), "surface lists");
+      const SurfaceListInputs of{inputs_.geometry,     view_, gbuffer, inputs_.width, inputs_.height, window,
+                                 inputs_.quality.lists};
+      return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
+    }();
+    if (!surfaces) return false;
     const auto lightLists = [&] {
       const Profiler::Scope time(device_.profiler(), "light lists");
-      const lights::LightListInputs of{inputs_.lights,       faces_,         view_,
-                                       inputs_.width,        inputs_.height, window.corners(),
-                                       inputs_.quality.lists};
+      std::optional<gl::Buffer> receivers;
+      if (hasListedLights_)
+        receivers = receiverDepths(device_, {view_, gbuffer, surfaces->lists, inputs_.volumes, inputs_.width,
+                                             inputs_.height, window});
+      const lights::LightListInputs of{inputs_.lights,
+                                       faces_,
+                                       view_,
+                                       inputs_.width,
+                                       inputs_.height,
+                                       window.corners(),
+                                       receivers ? &*receivers : nullptr,
+                                       remaining(surfaces->statistics.bytes)};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
     if (!lightLists) return false;
-    const auto surfaces = [&] {
-      const Profiler::Scope time(device_.profiler(), "surface lists");
-      const SurfaceListInputs of{inputs_.geometry,
-                                 view_,
-                                 gbuffer,
-                                 inputs_.width,
-                                 inputs_.height,
-                                 window,
-                                 remaining(lightLists->statistics().bytes)};
-      return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
-    }();
-    if (!surfaces) return false;
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window},
+                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -269,7 +302,7 @@ class TilePainter {
     return true;
   }
 
-  // What the lists of lights leave of the budget.
+  // What the lists of surfaces leave of the budget.
   lists::ListOptions remaining(size_t used) const {
     lists::ListOptions options = inputs_.quality.lists;
     if (options.budgetBytes != 0)
@@ -287,6 +320,7 @@ class TilePainter {
   gl::Device& device_;
   const TileInputs& inputs_;
   const std::vector<lights::ShadowFaces> faces_;
+  const bool hasListedLights_;
   size_t windowPixels_;  // that are tried at a time
   gl::Buffer view_;
   Frame& frame_;
@@ -335,7 +369,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height};
+                          width,         height,  options.countLookups};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);

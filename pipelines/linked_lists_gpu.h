@@ -24,6 +24,16 @@
 
 namespace sfumato::pipelines {
 
+// How often the pixels of a frame looked at the light lists and the deep shadow maps; a light is asked once
+// for up to four steps of a march.
+struct Lookups {
+  size_t pixels = 0;
+  size_t lights = 0;  // asked what they give to a surface or to steps, in all pixels
+  size_t shadows = 0;
+  size_t mostLights = 0;  // of one pixel
+  size_t mostShadows = 0;
+};
+
 struct FrameStatistics {
   lists::ListStatistics surfaces;             // of the camera
   lists::ListStatistics lights;               // light lists
@@ -31,6 +41,7 @@ struct FrameStatistics {
   size_t splitPixels = 0;                     // walked sample by sample
   int resolveDispatches = 0;
   size_t cutWalks = 0;  // 0, or walks that a bound cut: the picture is then wrong, and the user is told
+  Lookups lookups;      // where they were to be counted
   size_t triangles = 0;
   size_t tiles = 0;  // drawn one after the other; figures are sums over them
 };
@@ -41,6 +52,7 @@ struct FrameOptions {
   // are halved where the device has no room. Only tests ask for less.
   size_t tilePixels = pipelines::tilePixels;
   size_t windowPixels = std::numeric_limits<size_t>::max();
+  bool countLookups = false;             // by another program, so that frames without are not slower
   std::function<void()> onTile = [] {};  // called as each is done
 };
 

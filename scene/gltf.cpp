@@ -1326,10 +1326,13 @@ void readCone(const Faults& faults, const tinygltf::SpotLight& spot, Light& ligh
   light.outerCone = std::min(light.outerCone, largest);
 }
 
+// Extras "shadow" of the light, and before them of its node.
 Light readLight(const Faults& faults, const tinygltf::Light& from, const NodeGraph::Placed& placed,
-                const std::string& nodeName, const std::string& where) {
+                const tinygltf::Node& node, const std::string& where) {
   Light light;
-  light.name = nameOf(nodeName, from.name);
+  light.name = nameOf(node.name, from.name);
+  light.castsShadow = truth(faults, from.extras, "shadow", light.castsShadow, where);
+  light.castsShadow = truth(faults, node.extras, "shadow", light.castsShadow, where);
   light.position = glm::dvec3(placed.worldFromNode[3]);
   checkLength(faults, from.color, 3, where, "light colour");
   for (int c = 0; c < 3; ++c) {
@@ -1400,7 +1403,7 @@ Scene convert(Model model, const fs::path& path, std::optional<double> seconds, 
     if (const Value* lights = find(node.extensions, "KHR_lights_punctual")) {
       const int light = index(faults, *lights, "light", -1, where);
       scene.lights.push_back(
-          readLight(faults, faults.at(model.lights, light, where, "light"), placed, node.name, where));
+          readLight(faults, faults.at(model.lights, light, where, "light"), placed, node, where));
     }
     if (node.extras.Has("volume"))
       scene.volumes.push_back(

@@ -21,6 +21,12 @@ layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 layout(binding = TEXTURE_SURFACE_1) uniform pixelUsampler opaqueSurface1;
 
+#ifdef COUNT_LOOKUPS
+layout(std430, binding = STORAGE_LOOKUPS) buffer RayLookups {
+  uvec2 rayLookups[];
+};
+#endif
+
 const float FINISHED = 3e38;
 
 // Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
@@ -148,6 +154,9 @@ void main() {
     if (maxComponent(throughput) < params.march.y) walking = false;
   }
   if (walking) atomicAdd(counters.unfinished, 1u);
+#ifdef COUNT_LOOKUPS
+  rayLookups[number] = first ? lookups : rayLookups[number] + lookups;
+#endif
   rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
                           throughput.b, passed);
 }

@@ -109,6 +109,7 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
           seen.texels.x += side * face.texels.y * face.texels.y;
           pFace = inCubeFace(side, p - light.position.xyz);
         }
+        COUNT_LOOKUP(y);
         added *= shadowInSmoke(seen, pFace, params.options.y != 0);
       }
       vec3 throughput = vec3(steps.throughput[0][k], steps.throughput[1][k], steps.throughput[2][k]);

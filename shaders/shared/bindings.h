@@ -16,6 +16,8 @@
 #define STORAGE_LIST_COUNTERS 5
 #define STORAGE_LIGHTS 6            // LightData[]
 #define STORAGE_AOVS 7              // AovPixel[]
+#define STORAGE_RECEIVER_DEPTHS 8   // of each cell of the light lists
+#define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
 #define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
@@ -47,5 +49,5 @@
 #define TEXTURE_LIST_LINKED_PAYLOADS 14
 #define TEXTURE_LIGHT_CELL_RUNS 15  // the light lists, likewise
 #define TEXTURE_LIGHT_CELL_KEYS 16
-#define TEXTURE_LIGHT_CELL_BACKS 17
+#define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_VOLUMES 18  // and the units after it

@@ -719,6 +719,18 @@ TEST(GltfLight, EveryType) {
   EXPECT_EQ(scene.lights[3].outerCone, std::numbers::pi / 2);  // single precision's pi/2 is a hair more
 }
 
+TEST(GltfLight, MayCastNoShadow) {
+  GltfBuilder gltf;
+  gltf.light({{"type", "point"}});
+  gltf.light({{"type", "point"}, {"extras", {{"shadow", false}}}});
+  gltf.light({{"type", "spot"}, {"spot", Json::object()}})["extras"]["shadow"] = false;
+  gltf.light({{"type", "point"}, {"extras", {{"shadow", false}}}})["extras"]["shadow"] =
+      true;  // the node's counts
+  std::vector<bool> cast;
+  for (const Light& light : load(gltf).lights) cast.push_back(light.castsShadow);
+  EXPECT_EQ(cast, (std::vector<bool>{true, false, false, true}));
+}
+
 // --- Volumes ---
 
 TEST(GltfVolume, AllExtras) {
