@@ -191,7 +191,7 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
     base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {:.1f} MiB\n", scene.volumes[i].file,
                 grid.name, grid.size.x, grid.size.y, grid.size.z,
-                static_cast<double>(grid.values.size() * sizeof(float)) / 0x1p20);
+                static_cast<double>(grid.bytes()) / 0x1p20);
   }
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
