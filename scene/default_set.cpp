@@ -38,14 +38,13 @@ std::vector<double> columns(const volumes::DensityGrid& grid, int axis) {
   const int beyond = (axis + 2) % 3;
   const auto width = static_cast<size_t>(grid.size[across]);
   std::vector<double> sums(width * static_cast<size_t>(grid.size[beyond]));
-  size_t i = 0;
-  for (int z = 0; z < grid.size.z; ++z)
-    for (int y = 0; y < grid.size.y; ++y)
-      for (int x = 0; x < grid.size.x; ++x) {
-        const ivec3 voxel(x, y, z);
-        sums[static_cast<size_t>(voxel[beyond]) * width + static_cast<size_t>(voxel[across])] +=
-            grid.values[i++];
-      }
+  volumes::forEachRow(grid, [&](ivec3 voxel, std::span<const float> row) {
+    for (const float value : row) {
+      if (value != 0)
+        sums[static_cast<size_t>(voxel[beyond]) * width + static_cast<size_t>(voxel[across])] += value;
+      ++voxel.x;
+    }
+  });
   std::erase(sums, 0.0);
   return sums;
 }

@@ -67,8 +67,8 @@ double densityAt(const DensityGrid& grid, const glm::dvec3& pIndex) {
   const glm::ivec3 high = glm::min(low + 1, last);
   const glm::dvec3 f = p - glm::dvec3(low);
   const auto alongX = [&](int y, int z) {
-    return glm::mix(static_cast<double>(grid.values[grid.valueIndex(low.x, y, z)]),
-                    static_cast<double>(grid.values[grid.valueIndex(high.x, y, z)]), f.x);
+    return glm::mix(static_cast<double>(grid.value({low.x, y, z})),
+                    static_cast<double>(grid.value({high.x, y, z})), f.x);
   };
   const auto alongXY = [&](int z) { return glm::mix(alongX(low.y, z), alongX(high.y, z), f.y); };
   return glm::mix(alongXY(low.z), alongXY(high.z), f.z);

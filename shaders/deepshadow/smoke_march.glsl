@@ -38,6 +38,7 @@ bool marchStep(SmokeRay ray, inout SmokeMarch march, out vec2 knot) {
   bool inside = march.depth < ray.end && march.tau < DARK_TAU;
   float to = inside ? stepEnd(ray.media, march.depth, ray.end) : march.depth;
   float sigma = inside ? extinction(ray.media, 0.5 * (march.depth + to)) : 0.0;
+  if (inside && sigma == 0.0) to = emptyEnd(ray.media, march.depth, to, ray.end);
   bool fixes = false;
   if (!march.open && sigma > 0.0) {
     fixes = march.open = true;

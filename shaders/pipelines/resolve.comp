@@ -126,6 +126,8 @@ void main() {
         appendStep(steps, middle, to - depth, scattered, throughput);
         throughput *= passed;
         if (maxComponent(throughput) < params.march.y) limit = to;
+      } else {
+        to = emptyEnd(media, depth, to, limit);
       }
       depth = to;
     }

@@ -6,6 +6,7 @@
 #define UNIFORM_PASS 1  // the pass's own block
 #define UNIFORM_LISTS 2      // ListWindow, while lists are built
 #define UNIFORM_LIST_STEP 3  // ListStep: one step of their scan or sort
+#define UNIFORM_GRIDS 4      // GridData[]
 
 // Storage blocks
 #define STORAGE_DRAWS 0      // DrawData[]
@@ -50,4 +51,5 @@
 #define TEXTURE_LIGHT_CELL_RUNS 15  // the light lists, likewise
 #define TEXTURE_LIGHT_CELL_KEYS 16
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
-#define TEXTURE_VOLUMES 18  // and the units after it
+#define TEXTURE_BRICK_MAP 18
+#define TEXTURE_GRIDS 19  // and the units after it

@@ -3,12 +3,10 @@
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 
+// The density of medium v is grid v: see grids.h.
 struct VolumeData {
-  mat4 textureFromWorld;  // texture coordinates of the density
-  vec4 boxMin;            // of what may be denser than 0, in texture coordinates
-  vec4 boxMax;
-  vec4 albedoScale;       // rgb: albedo; w: sigma_t per unit of density, 1/m
-  vec4 phase;             // x: Henyey-Greenstein g; y: shortest step between voxels, m
+  vec4 albedoScale;  // rgb: albedo; w: sigma_t per unit of density, 1/m
+  vec4 phase;        // x: Henyey-Greenstein g; y: shortest step between voxels, m
 };
 
 SHARED_END

@@ -13,6 +13,7 @@
 #include "shaders/shared/aovs.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
@@ -107,10 +108,11 @@ const std::map<std::string, Layout>& cppLayouts() {
        {sizeof(shared::ResolveCounters),
         {AT(ResolveCounters, groups), AT(ResolveCounters, unfinished), AT(ResolveCounters, boundHit)}}},
       {"StressParams", {sizeof(shared::StressParams), {AT(StressParams, load), AT(StressParams, window)}}},
-      {"VolumeData",
-       {sizeof(shared::VolumeData),
-        {AT(VolumeData, textureFromWorld), AT(VolumeData, boxMin), AT(VolumeData, boxMax),
-         AT(VolumeData, albedoScale), AT(VolumeData, phase)}}},
+      {"VolumeData", {sizeof(shared::VolumeData), {AT(VolumeData, albedoScale), AT(VolumeData, phase)}}},
+      {"GridData",
+       {sizeof(shared::GridData),
+        {AT(GridData, gridFromWorld), AT(GridData, boxMin), AT(GridData, boxMax), AT(GridData, bricksScale),
+         AT(GridData, bricksFirst)}}},
   };
   return all;
 }
@@ -179,7 +181,7 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
   for (const std::string name :
-       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams"}) {
+       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams", "GridData"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;
