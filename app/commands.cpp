@@ -135,9 +135,20 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->type_name("VOXELS")
       ->check(between(0.01, 100.0));
   add("--shadow-res", options.shadowResolution,
-      "Texels a side of a deep shadow map: 32 to 16384, else by --quality")
+      "Texels a side of every deep shadow map: 32 to 16384, else by --quality and what a light covers")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
+  add("--shadow-error", options.shadowError,
+      "Their compression errs in transmittance at most so: 0 (keep all) to 0.5, else by --quality")
+      ->type_name("ERROR")
+      ->check(between(0.0, 0.5));
+  add("--shadow-filter", options.shadowFilter,
+      "Look shadows up so: nearest, bilinear, soft; else by --quality")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::shadowFilterNames()));
+  add("--shadow-memory", options.shadowMemory,
+      "Most that they take together: coarser ones, else 2G or what the device reads")
+      ->type_name("BYTES|64K|256M|2G");
 }
 
 void addLists(CLI::App& command, RenderOptions& options) {

@@ -36,8 +36,11 @@ struct RenderOptions {
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
-  std::string lists;       // a strategy; empty: the device's
-  std::string listMemory;  // empty: what the device allows
+  std::optional<double> shadowError;
+  std::string shadowFilter;  // empty: by quality
+  std::string shadowMemory;  // empty: what the device reads
+  std::string lists;         // a strategy; empty: the device's
+  std::string listMemory;    // empty: what the device allows
   std::string onOverflow = "window";
   bool reference = false;  // drawn by the CPU reference
   int samples = 1;         // a side of the pixel, of the reference

@@ -115,7 +115,14 @@ scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& sce
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  if (options.shadowResolution) quality.shadowResolution = *options.shadowResolution;
+  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.exactShadowResolution = options.shadowResolution.has_value();
+  quality.shadowError = options.shadowError.value_or(quality.shadowError);
+  quality.exactShadowError = options.shadowError.has_value();
+  if (!options.shadowFilter.empty())
+    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
+  if (!options.shadowMemory.empty())
+    quality.shadowMemory = lists::bytesNamed(options.shadowMemory, "--shadow-memory");
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
@@ -157,6 +164,9 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
     result.emplace_back("sfumato:samples_at_edges", fmt::format("{}", shot.quality.samples));
     result.emplace_back("sfumato:shadow_resolution", fmt::format("{}", shot.quality.shadowResolution));
     result.emplace_back("sfumato:shadow_error", fmt::format("{}", shot.quality.shadowError));
+    result.emplace_back("sfumato:shadow_filter", fmt::format("{} on surfaces, {} in smoke",
+                                                             pipelines::nameOf(shot.quality.surfaceShadows),
+                                                             pipelines::nameOf(shot.quality.smokeShadows)));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
   }
   for (size_t i = 0; i < shot.media.size(); ++i)

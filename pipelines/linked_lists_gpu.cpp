@@ -9,6 +9,7 @@
 #include "pipelines/aovs_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
+#include "pipelines/shadow_resolution.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
@@ -71,7 +72,8 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   shared::ResolveParams params{};
   params.march = {static_cast<float>(inputs.quality.stepVoxels),
                   static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
-  params.options = {1, inputs.quality.bilinearSmokeShadows ? 1 : 0, inputs.lights.directionalLights(), 0};
+  params.options = {1, tapsOf(inputs.quality.surfaceShadows) + 8 * tapsOf(inputs.quality.smokeShadows),
+                    inputs.lights.directionalLights(), 0};
   setSamples(params, inputs.gbuffer);
   return params;
 }
@@ -329,17 +331,19 @@ class TilePainter {
 // The camera's view with clip planes close around the surfaces that are seen: it shows the same, and the
 // depth test tells more depths apart. `seen`: points whose hull holds those surfaces.
 shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
-                             const std::vector<glm::dvec3>& seen) {
+                             const std::vector<std::vector<glm::dvec3>>& seen) {
   shared::ViewParams view = scene::cameraView(camera, width, height);
-  if (seen.empty()) return view;
   const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
   double nearest = scene::infinity;
   double farthest = 0;
-  for (const glm::dvec3& p : seen) {
-    const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
+  for (const std::vector<glm::dvec3>& part : seen) {
+    for (const glm::dvec3& p : part) {
+      const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
   }
+  if (nearest > farthest) return view;
   constexpr double slack = 1e-3;
   constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
   scene::Camera tight = camera;
@@ -364,8 +368,8 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
   const double aspect = static_cast<double>(width) / height;
-  const std::vector<glm::dvec3> seen = scene::visiblePoints(scene_, {}, camera, aspect);
-  const deepshadow::Maps shadows = buildShadows(camera, aspect, seen, quality);
+  const auto seen = scene::visibleParts(scene_, camera, aspect);
+  const deepshadow::Maps shadows = buildShadows(camera, width, height, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
@@ -376,32 +380,48 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     options.onTile();
   }
   frame.statistics.shadows = shadows.lights();
+  frame.statistics.shadowMaps = {.error = shadows.plan().error,
+                                 .lowered = shadows.lowered(),
+                                 .bytes = shadows.bytes(),
+                                 .predictedBytes = shadows.predictedBytes(),
+                                 .budgetBytes = shadows.budgetBytes()};
   frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = geometry_.triangles();
   return frame;
 }
 
-deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, double aspect,
-                                                   const std::vector<glm::dvec3>& seen,
+deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, int width, int height,
+                                                   const std::vector<std::vector<glm::dvec3>>& seen,
                                                    const Quality& quality) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  std::vector<glm::dvec3> receivers = scene::visiblePoints({}, mediaBoxes_, camera, aspect);
-  receivers.insert(receivers.end(), seen.begin(), seen.end());
+  std::vector<glm::dvec3> receivers;
+  std::vector<scene::Bounds> parts;
+  const double aspect = static_cast<double>(width) / height;
+  for (const auto& all : {scene::visibleParts(mediaBoxes_, camera, aspect), seen}) {
+    for (const std::vector<glm::dvec3>& part : all) {
+      receivers.insert(receivers.end(), part.begin(), part.end());
+      parts.push_back(scene::boundsOf(part));
+    }
+  }
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce(),
                               .notSelf = geometry_.hasNotSelf(),
                               .defines = geometry_.defines()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
-  return deepshadow::Maps(device_, {.lights = scene_.lights,
-                                    .casters = casters,
-                                    .volumes = volumes_,
-                                    .receivers = receivers,
-                                    .castingPoints = castingPoints,
-                                    .resolution = quality.shadowResolution,
-                                    .stepVoxels = quality.stepVoxels,
-                                    .error = quality.shadowError,
-                                    .lists = quality.lists});
+  return deepshadow::Maps(
+      device_,
+      {.lights = scene_.lights,
+       .casters = casters,
+       .volumes = volumes_,
+       .receivers = receivers,
+       .castingPoints = castingPoints,
+       .plan = {shadowResolutions(scene_.lights, parts, camera, width, height, quality), quality.shadowError},
+       .budget = {.bytes = quality.shadowMemory,
+                  .lowerResolution = !quality.exactShadowResolution,
+                  .loosenError = !quality.exactShadowError},
+       .stepVoxels = quality.stepVoxels,
+       .lists = quality.lists});
 }
 
 }  // namespace sfumato::pipelines

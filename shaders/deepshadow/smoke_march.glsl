@@ -10,7 +10,7 @@ struct SmokeRay {
   MediaRay media;
   float end;             // depth
   float metresPerDepth;
-  float bound;           // of the error
+  float bound;           // of the error; 0: every step is a knot
 };
 
 // How far it has come. A segment starts at the last knot; any slope in [slopeMin, slopeMax] stays within the bound. It
@@ -50,13 +50,13 @@ bool marchStep(SmokeRay ray, inout SmokeMarch march, out vec2 knot) {
     float nextTau = march.tau + sigma * (to - march.depth) * ray.metresPerDepth;
     // tau may be off by -log(1 + x) to -log(1 - x), x = bound / T; these lie within, and need no logarithm.
     float x = ray.bound * exp(nextTau);
-    float tauMin = nextTau - x / (1.0 + x);
-    float tauMax = nextTau + x;
+    float tauMin = nextTau - 2.0 * x / (2.0 + x);
+    float tauMax = x < 1.0 ? nextTau + x + 0.5 * x * x : 3e38;
     float run = to - march.segmentDepth;
     float newMin = max(march.slopeMin, (tauMin - march.segmentTau) / run);
     float newMax = min(march.slopeMax, (tauMax - march.segmentTau) / run);
     march.open = sigma > 0.0;
-    if ((!march.open || newMin > newMax) && march.depth > march.segmentDepth) {
+    if ((!march.open || newMin > newMax || ray.bound == 0.0) && march.depth > march.segmentDepth) {
       float range = march.depth - march.segmentDepth;
       march.segmentTau += range * clamp((march.tau - march.segmentTau) / range, march.slopeMin, march.slopeMax);
       march.segmentDepth = march.depth;

@@ -110,7 +110,7 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
           pFace = inCubeFace(side, p - light.position.xyz);
         }
         COUNT_LOOKUP(y);
-        added *= shadowInSmoke(seen, pFace, params.options.y != 0);
+        added *= shadowInSmoke(seen, pFace, params.options.y >> 3);
       }
       vec3 throughput = vec3(steps.throughput[0][k], steps.throughput[1][k], steps.throughput[2][k]);
       sum += throughput * added;
