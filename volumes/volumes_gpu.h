@@ -20,13 +20,15 @@ class VolumesGpu {
 
   size_t count() const { return textures_.size(); }
   bool empty() const { return textures_.empty(); }
-  // VOLUME_COUNT, for programs that include shaders/volumes/media.glsl.
+  // VOLUME_COUNT, and COLOURED_SMOKE where the extinction of some medium has a colour; for programs that
+  // include shaders/volumes/media.glsl.
   gl::ShaderDefines defines() const;
   void bind() const;
 
  private:
   std::vector<gl::Texture> textures_;
   gl::Buffer data_;
+  bool coloured_ = false;
 };
 
 }  // namespace sfumato::volumes

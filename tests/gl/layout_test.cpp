@@ -110,7 +110,7 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"VolumeData",
        {sizeof(shared::VolumeData),
         {AT(VolumeData, textureFromWorld), AT(VolumeData, boxMin), AT(VolumeData, boxMax),
-         AT(VolumeData, albedoScale), AT(VolumeData, phase)}}},
+         AT(VolumeData, extinction), AT(VolumeData, albedo), AT(VolumeData, scattering), AT(VolumeData, phase)}}},
   };
   return all;
 }
