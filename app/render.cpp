@@ -44,6 +44,7 @@ void addVolumes(const RenderOptions& options, scene::Scene& scene) {
     volume.file = file;
     volume.gridName = options.grid;
     volume.scale = options.volumeScale.value_or(1);
+    volume.extinctionColour = options.volumeExtinction;
     volume.albedo = options.volumeAlbedo;
     volume.g = options.volumeG;
     scene.volumes.push_back(volume);
@@ -123,6 +124,7 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
     quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
   if (!options.shadowMemory.empty())
     quality.shadowMemory = lists::bytesNamed(options.shadowMemory, "--shadow-memory");
+  quality.scatteringOctaves = options.scatteringOctaves;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
@@ -150,6 +152,7 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                             {"sfumato:size", fmt::format("{}x{}", options.width, options.height)},
                             {"sfumato:quality", options.quality},
                             {"sfumato:step_voxels", fmt::format("{}", shot.quality.stepVoxels)},
+                            {"sfumato:scattering_octaves", fmt::format("{}", options.scatteringOctaves)},
                             {"sfumato:exposure_stops", fmt::format("{}", options.exposureStops)},
                             {"sfumato:camera_position", numbers(camera.worldFromView[3])},
                             {"sfumato:camera_direction", numbers(-glm::dvec3(camera.worldFromView[2]))},
@@ -170,10 +173,11 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
   }
   for (size_t i = 0; i < shot.media.size(); ++i)
-    result.emplace_back(fmt::format("sfumato:volume{}", i),
-                        fmt::format("{}: grid \"{}\", scale {}, albedo {}, g {}", shot.scene.volumes[i].file,
-                                    shot.media[i].grid.name, shot.media[i].scale,
-                                    numbers(shot.media[i].albedo), shot.media[i].g));
+    result.emplace_back(
+        fmt::format("sfumato:volume{}", i),
+        fmt::format("{}: grid \"{}\", scale {}, extinction {}, albedo {}, g {}", shot.scene.volumes[i].file,
+                    shot.media[i].grid.name, shot.media[i].scale, numbers(shot.media[i].extinctionColour),
+                    numbers(shot.media[i].albedo), shot.media[i].g));
   return result;
 }
 
@@ -257,14 +261,16 @@ Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_
   std::vector<double> seconds;
   for (int i = 0; i < options.repeat; ++i) {
     const Clock::time_point frameStart = Clock::now();
-    pipelines::ReferenceFrame frame = pipelines::traceReference(shot.scene, shot.camera, shot.media,
-                                                                {.width = options.width,
-                                                                 .height = options.height,
-                                                                 .samples = options.samples,
-                                                                 .stepVoxels = shot.quality.stepVoxels,
-                                                                 .shadowStepVoxels = shot.quality.stepVoxels,
-                                                                 .showProgress = true,
-                                                                 .aovs = shot.aovs});
+    pipelines::ReferenceFrame frame =
+        pipelines::traceReference(shot.scene, shot.camera, shot.media,
+                                  {.width = options.width,
+                                   .height = options.height,
+                                   .samples = options.samples,
+                                   .stepVoxels = shot.quality.stepVoxels,
+                                   .shadowStepVoxels = shot.quality.stepVoxels,
+                                   .scatteringOctaves = options.scatteringOctaves,
+                                   .showProgress = true,
+                                   .aovs = shot.aovs});
     drawn.radiance = std::move(frame.radiance);
     drawn.aovs = std::move(frame.aovs);
     seconds.push_back(secondsSince(frameStart));

@@ -33,11 +33,12 @@ std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
 }
 
 gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const GeometryGpu& geometry,
-                                 size_t samples) {
+                                 size_t samples, int scatteringOctaves) {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)}};
   if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
+  if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
   return gl::joined(defines, volumes.defines());
 }
 
@@ -171,7 +172,8 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  gl::ShaderDefines defines = resolveDefines(inputs.volumes, inputs.geometry, samples);
+  gl::ShaderDefines defines =
+      resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
@@ -362,7 +364,7 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
   device.program({"pipelines/resolve.comp"},
-                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples)));
+                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples), 0));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,

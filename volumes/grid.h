@@ -78,11 +78,13 @@ void forEachRow(const DensityGrid& grid, const Visit& visit) {
                  grid.bricks.values.data() + (*brick - 1) * DensityGrid::valuesInBrick);
 }
 
-// sigma_t = density * scale [1/m], scattering albedo per channel, Henyey-Greenstein g.
+// sigma_t = density * scale * extinctionColour [1/m] per channel, scattering albedo per channel,
+// Henyey-Greenstein g.
 struct Medium {
   DensityGrid grid;
   glm::dmat4 worldFromIndex{1.0};  // placement times the grid's own transform
   double scale = 1;                // 1/m per unit of density
+  glm::dvec3 extinctionColour{1};  // each >= 0
   glm::dvec3 albedo{0.9};
   double g = 0;
 };

@@ -20,7 +20,8 @@ class VolumesGpu {
 
   size_t count() const { return count_; }
   bool empty() const { return count_ == 0; }
-  // VOLUME_COUNT and those of the grids, for programs that include shaders/volumes/media.glsl.
+  // VOLUME_COUNT, those of the grids, and COLOURED_SMOKE where the extinction of some medium has a colour; for
+  // programs that include shaders/volumes/media.glsl.
   gl::ShaderDefines defines() const;
   void bind() const;
 
@@ -28,6 +29,7 @@ class VolumesGpu {
   size_t count_;
   GridsGpu grids_;  // the density of each medium
   gl::Buffer data_;
+  bool coloured_ = false;
 };
 
 }  // namespace sfumato::volumes

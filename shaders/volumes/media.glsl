@@ -2,6 +2,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/volumes.h"
+#include "shaders/volumes/extinction.glsl"
 #include "shaders/volumes/grid.glsl"
 
 layout(std430, binding = STORAGE_VOLUMES) readonly buffer Volumes {
@@ -83,17 +84,36 @@ float stepsAtMost(MediaRay ray) {
   return (ray.rangeOfAll.y - ray.rangeOfAll.x) / stride + float(2 * VOLUME_COUNT);
 }
 
-// Extinction of medium v at a depth along the ray, 1/m.
+// Extinction of medium v at a depth along the ray in the channel of which it takes most, 1/m.
 float extinctionOf(int v, MediaRay ray, float depth) {
   bool inside = depth >= ray.range[v].x && depth <= ray.range[v].y;
   float density = sampleGrid(v, ray.start[v] + depth * ray.perDepth[v]);
-  return inside ? density * volumes[v].albedoScale.w : 0.0;
+  return inside ? density * volumes[v].extinction.w : 0.0;
 }
 
-float extinction(MediaRay ray, float depth) {
-  float sum = 0.0;
-  for (int v = 0; v < VOLUME_COUNT; ++v) sum += extinctionOf(v, ray, depth);
+// The same in each channel.
+Extinction inChannels(int v, float densest) {
+#ifdef COLOURED_SMOKE
+  return densest * volumes[v].extinction.rgb;
+#else
+  return densest;
+#endif
+}
+
+Extinction extinction(MediaRay ray, float depth) {
+  Extinction sum = Extinction(0.0);
+  for (int v = 0; v < VOLUME_COUNT; ++v) sum += inChannels(v, extinctionOf(v, ray, depth));
   return sum;
+}
+
+// Over which length what lies in a step of an optical depth is seen: the integral of exp(-sigma_t s), its series where the
+// difference would cancel.
+float seenLength(float tau, float stepLength) {
+  return stepLength * (tau > 1e-3 ? (1.0 - exp(-tau)) / tau : 1.0 - 0.5 * tau);
+}
+
+vec3 seenLength(vec3 tau, float stepLength) {
+  return vec3(seenLength(tau.r, stepLength), seenLength(tau.g, stepLength), seenLength(tau.b, stepLength));
 }
 
 // Henyey-Greenstein, 1/sr; `cosine` between the directions of travel before and after.
