@@ -281,6 +281,7 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) {
     map.firstTexel = texels;
     for (const FaceProjection& face : faces.back()) {
       data.push_back(faceData(face, map.firstTexel + map.texels));
+      projections_.push_back(face);
       map.texels += texelsOf(face);
     }
     texels += map.texels;

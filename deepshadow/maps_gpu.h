@@ -67,6 +67,7 @@ class Maps {
   Maps(gl::Device& device, const MapInputs& inputs);
 
   const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights
+  const std::vector<FaceProjection>& faces() const { return projections_; }  // of all lights
   // Texels whose march through smoke or walk over their list was cut at its bound; 0 unless steps are
   // absurdly short or a light passes thousands of objects that shadow once.
   size_t cutMarches() const { return cutMarches_; }
@@ -77,6 +78,7 @@ class Maps {
 
  private:
   std::vector<LightMap> lightMaps_;
+  std::vector<FaceProjection> projections_;
   gl::Buffer faces_;
   gl::Buffer texels_;
   gl::Buffer knots_;

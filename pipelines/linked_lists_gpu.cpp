@@ -7,6 +7,7 @@
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/aovs_gpu.h"
+#include "pipelines/deep_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
@@ -49,6 +50,7 @@ struct ResolveInputs {
   const GeometryGpu& geometry;
   const Quality& quality;
   Tile window;
+  size_t deepBytes = 0;  // most that a deep image takes
 };
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -148,37 +150,46 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  const gl::Program& program =
-      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.volumes, inputs.geometry, samples));
+  gl::ShaderDefines defines = resolveDefines(inputs.volumes, inputs.geometry, samples);
+  if (frame.deep) defines.emplace_back("DEEP", "1");
+  const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
-  shared::ResolveParams params = resolveParams(inputs);
-  params.options.w = static_cast<int>(rayCount);
 
-  int dispatches = 0;
-  shared::ResolveCounters counted{};
-  do {
-    base::check(dispatches < maxResolveDispatches, "the resolve ends");
-    passBlock.writeValue(params);
-    counters.clear();
-    bindRayInputs(inputs);
-    passBlock.bindUniform(UNIFORM_PASS);
-    rays.bindStorage(STORAGE_RAYS);
-    split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
-    counters.bindStorage(STORAGE_COUNTERS);
-    inputs.lights.bind();
-    inputs.shadows.bind();
-    inputs.volumes.bind();
-    gl::dispatchLinear(program, rayCount);
-    gl::storageBarrier();
-    counted = counters.readValue<shared::ResolveCounters>();
-    frame.statistics.cutWalks += counted.boundHit;
-    ++dispatches;
-    params.options.x = 0;
-  } while (counted.unfinished > 0);
+  const auto walk = [&](size_t count) {
+    shared::ResolveParams params = resolveParams(inputs);
+    params.options.w = static_cast<int>(count);
+    int dispatches = 0;
+    shared::ResolveCounters counted{};
+    do {
+      base::check(dispatches < maxResolveDispatches, "the resolve ends");
+      passBlock.writeValue(params);
+      counters.clear();
+      bindRayInputs(inputs);
+      passBlock.bindUniform(UNIFORM_PASS);
+      rays.bindStorage(STORAGE_RAYS);
+      split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
+      counters.bindStorage(STORAGE_COUNTERS);
+      inputs.lights.bind();
+      inputs.shadows.bind();
+      inputs.volumes.bind();
+      gl::dispatchLinear(program, count);
+      gl::storageBarrier();
+      counted = counters.readValue<shared::ResolveCounters>();
+      frame.statistics.cutWalks += counted.boundHit;
+      ++dispatches;
+      params.options.x = 0;
+    } while (counted.unfinished > 0);
+    frame.statistics.resolveDispatches += dispatches;
+  };
+  if (frame.deep)
+    recordDeep(device,
+               {inputs.window, split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1, walk},
+               inputs.deepBytes, *frame.deep);
+  else
+    walk(rayCount);
   frame.statistics.splitPixels += split.count;
-  frame.statistics.resolveDispatches += dispatches;
   readRays(rays, split, rayCount, inputs, frame);
   return true;
 }
@@ -193,6 +204,7 @@ struct TileInputs {
   shared::ViewParams view;  // of the whole image
   int width = 0;
   int height = 0;
+  size_t deepBytes = 0;  // most that a deep image takes
 };
 
 // Draws a frame tile by tile.
@@ -258,7 +270,7 @@ class TilePainter {
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window},
+                  inputs_.geometry, inputs_.quality, window, inputs_.deepBytes},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -333,9 +345,16 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   const std::vector<glm::dvec3> seen = scene::visiblePoints(scene_, {}, camera, aspect);
   const deepshadow::Maps shadows = buildShadows(camera, aspect, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
+  const size_t deepBytes = std::min(options.deepBytes, mostDeepBytes());
+  if (options.deep) {
+    frame.deep = image::DeepImage(width, height);
+    frame.deep->view = deepView(scene::cameraView(camera, width, height));
+  }
+  for (const size_t light : options.deepShadows)
+    frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height};
+                          width,         height,  deepBytes};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
