@@ -219,6 +219,14 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(oneOf(pipelines::aovNames()));
+  add("--deep", options.deep, "Write what lies along each pixel's depth, for deep compositing")
+      ->type_name("FILE.exr")
+      ->check(fileName());
+  add("--deep-shadow", options.deepShadows,
+      "Write a light's deep shadow map so; LIGHT is its name or number; may be given again")
+      ->type_name("LIGHT FILE.exr")
+      ->check(fileName())
+      ->allow_extra_args(false);
   add("--stats", options.statistics, "Write times, bytes and list figures as JSON")
       ->type_name("FILE.json")
       ->check(fileName());

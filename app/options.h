@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sfumato::app {
@@ -47,9 +48,11 @@ struct RenderOptions {
   bool reference = false;  // drawn by the CPU reference
   int samples = 1;         // a side of the pixel, of the reference
   double exposureStops = 0;
-  std::vector<std::string> aovs;  // see pipelines/aovs.h
-  std::string statistics;         // path, empty: none
-  int repeat = 1;                 // frames; the last one is written
+  std::vector<std::string> aovs;                                 // see pipelines/aovs.h
+  std::string deep;                                              // .exr, empty: none
+  std::vector<std::pair<std::string, std::string>> deepShadows;  // a light's name or number, and an .exr
+  std::string statistics;                                        // path, empty: none
+  int repeat = 1;                                                // frames; the last one is written
   bool dryRun = false;
 };
 

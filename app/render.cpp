@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/aov_files.h"
+#include "app/deep_files.h"
 #include "app/options.h"
 #include "app/shot.h"
 #include "base/error.h"
@@ -189,7 +190,8 @@ std::filesystem::path placeOf(const std::string& file) {
 
 // Every output is checked before the long work: it can be written, and is no other file of this run.
 void checkOutputs(const RenderOptions& options) {
-  if (options.outputs.empty() && !options.dryRun)
+  const std::vector<std::string> deep = deepFiles(options);
+  if (options.outputs.empty() && deep.empty() && !options.dryRun)
     fail(ExitCode::Usage, "render: no output: name an image with -o, e.g. -o {}.png",
          std::filesystem::path(options.scene.empty() ? options.volumes.front() : options.scene)
              .stem()
@@ -197,6 +199,7 @@ void checkOutputs(const RenderOptions& options) {
   std::vector<std::string> outputs = options.outputs;
   for (const std::string& output : outputs) image::checkImageName(output);
   for (const std::string& file : heatMapFiles(options)) outputs.push_back(file);
+  outputs.insert(outputs.end(), deep.begin(), deep.end());
   if (!options.statistics.empty()) outputs.push_back(options.statistics);
   std::set<std::filesystem::path> places = {placeOf(options.scene)};
   for (const std::string& volume : options.volumes) places.insert(placeOf(volume));
@@ -233,12 +236,14 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
               options.quality, shot.quality.stepVoxels, wayOfDrawing(options, shot.quality));
   for (const std::string& output : options.outputs) base::print("output   {}\n", output);
   for (const std::string& file : heatMapFiles(options)) base::print("output   {}\n", file);
+  for (const std::string& file : deepFiles(options)) base::print("output   {}\n", file);
   if (!options.statistics.empty()) base::print("output   {}\n", options.statistics);
 }
 
 // Radiance first; then it is exposed for the pictures in its own place, as images may be large.
 void writeOutputs(const RenderOptions& options, Drawn drawn, const image::Metadata& settings) {
   writeHeatMaps(options, drawn.aovs, settings);
+  writeDeepFiles(options, drawn, settings);
   std::vector<image::Layer> layers;
   for (auto& [aov, image] : drawn.aovs) layers.push_back(layerOf(aov, std::move(image)));
   for (const std::string& output : options.outputs) {
@@ -300,6 +305,7 @@ Shot makeShot(const RenderOptions& options) {
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
   shot.aovs = wantedAovs(options);
+  shot.deepShadows = deepShadowLights(options, shot.scene);
   return shot;
 }
 

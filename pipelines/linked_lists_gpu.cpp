@@ -7,6 +7,7 @@
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/aovs_gpu.h"
+#include "pipelines/deep_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
 #include "pipelines/shadow_resolution.h"
@@ -53,6 +54,7 @@ struct ResolveInputs {
   const Quality& quality;
   Tile window;
   bool countLookups;
+  size_t deepBytes;  // most that a deep image takes
 };
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -175,38 +177,47 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   gl::ShaderDefines defines =
       resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (frame.deep) defines.emplace_back("DEEP", "1");
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
   gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec2) : 0);
-  shared::ResolveParams params = resolveParams(inputs);
-  params.options.w = static_cast<int>(rayCount);
 
-  int dispatches = 0;
-  shared::ResolveCounters counted{};
-  do {
-    base::check(dispatches < maxResolveDispatches, "the resolve ends");
-    passBlock.writeValue(params);
-    counters.clear();
-    bindRayInputs(inputs);
-    passBlock.bindUniform(UNIFORM_PASS);
-    rays.bindStorage(STORAGE_RAYS);
-    split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
-    counters.bindStorage(STORAGE_COUNTERS);
-    lookups.bindStorage(STORAGE_LOOKUPS);
-    inputs.lights.bind();
-    inputs.shadows.bind();
-    inputs.volumes.bind();
-    gl::dispatchLinear(program, rayCount);
-    gl::storageBarrier();
-    counted = counters.readValue<shared::ResolveCounters>();
-    frame.statistics.cutWalks += counted.boundHit;
-    ++dispatches;
-    params.options.x = 0;
-  } while (counted.unfinished > 0);
+  const auto walk = [&](size_t count) {
+    shared::ResolveParams params = resolveParams(inputs);
+    params.options.w = static_cast<int>(count);
+    int dispatches = 0;
+    shared::ResolveCounters counted{};
+    do {
+      base::check(dispatches < maxResolveDispatches, "the resolve ends");
+      passBlock.writeValue(params);
+      counters.clear();
+      bindRayInputs(inputs);
+      passBlock.bindUniform(UNIFORM_PASS);
+      rays.bindStorage(STORAGE_RAYS);
+      split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
+      counters.bindStorage(STORAGE_COUNTERS);
+      lookups.bindStorage(STORAGE_LOOKUPS);
+      inputs.lights.bind();
+      inputs.shadows.bind();
+      inputs.volumes.bind();
+      gl::dispatchLinear(program, count);
+      gl::storageBarrier();
+      counted = counters.readValue<shared::ResolveCounters>();
+      frame.statistics.cutWalks += counted.boundHit;
+      ++dispatches;
+      params.options.x = 0;
+    } while (counted.unfinished > 0);
+    frame.statistics.resolveDispatches += dispatches;
+  };
+  if (frame.deep)
+    recordDeep(device,
+               {inputs.window, split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1, walk},
+               inputs.deepBytes, *frame.deep);
+  else
+    walk(rayCount);
   frame.statistics.splitPixels += split.count;
-  frame.statistics.resolveDispatches += dispatches;
   readRays(rays, split, rayCount, inputs, frame);
   if (inputs.countLookups) readLookups(lookups, split, rayCount, inputs, frame.statistics.lookups);
   return true;
@@ -223,6 +234,7 @@ struct TileInputs {
   int width = 0;
   int height = 0;
   bool countLookups = false;
+  size_t deepBytes = 0;  // most that a deep image takes
 };
 
 // Draws a frame tile by tile.
@@ -295,7 +307,7 @@ class TilePainter {
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups},
+                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepBytes},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -373,9 +385,16 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   const auto seen = scene::visibleParts(scene_, camera, aspect);
   const deepshadow::Maps shadows = buildShadows(camera, width, height, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
+  const size_t deepBytes = std::min(options.deepBytes, mostDeepBytes());
+  if (options.deep) {
+    frame.deep = image::DeepImage(width, height);
+    frame.deep->view = deepView(scene::cameraView(camera, width, height));
+  }
+  for (const size_t light : options.deepShadows)
+    frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height,  options.countLookups};
+                          width,         height,  options.countLookups, deepBytes};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);

@@ -5,12 +5,14 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "deepshadow/maps_gpu.h"
 #include "gl/device.h"
+#include "image/deep_image.h"
 #include "image/image.h"
 #include "lights/light_lists_gpu.h"
 #include "lists/lists_gpu.h"
@@ -56,7 +58,11 @@ struct FrameStatistics {
 };
 
 struct FrameOptions {
-  AovSet aovs;  // those that are not asked for cost nothing
+  AovSet aovs;                      // those that are not asked for cost nothing
+  bool deep = false;                // the deep image as well; nor does this cost anything else
+  std::vector<size_t> deepShadows;  // lights that cast shadows, whose maps are wanted as deep images
+  size_t deepBytes =
+      std::numeric_limits<size_t>::max();  // most that one of these takes, beside half of what is free
   // Most pixels of a tile, and of a window: the part of a tile that gets lists and rays at a time. Windows
   // are halved where the device has no room. Only tests ask for less.
   size_t tilePixels = pipelines::tilePixels;
@@ -68,6 +74,8 @@ struct FrameOptions {
 struct Frame {
   image::Image radiance;  // linear RGB
   AovImages aovs;
+  std::optional<image::DeepImage> deep;                    // flattened it is the radiance
+  std::vector<std::vector<image::DeepImage>> deepShadows;  // a light each, of an image for each face
   FrameStatistics statistics;
 };
 

@@ -2,8 +2,10 @@
 // the opaque depth, and lights both through light lists and deep shadow maps. A ray that has done much work keeps
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
-// objects that do not shadow themselves.
+// objects that do not shadow themselves. DEEP is defined when what each ray meets is recorded for a deep image; then the
+// rays are those of a list.
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/deep_events.glsl"
 #include "shaders/pipelines/surface_lighting.glsl"
 #include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/linear_id.glsl"
@@ -55,6 +57,7 @@ RayPlace rayPlace(uint ray) {
 void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
+  number = rayNumber(number);
   bool first = params.options.x != 0;
   float depth = first ? view.depthRange.x : rays[number].depth;
   if (depth >= FINISHED) return;
@@ -128,7 +131,11 @@ void main() {
       }
       depth = to;
     }
-    if (steps.count > 0) radiance += scattered(steps, ray);
+    if (steps.count > 0) {
+      vec3 added = scattered(steps, ray);
+      radiance += added;
+      recordEvent(depth - steps.size[0], depth, added, throughput);
+    }
     atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
 #endif
     if (atSurface) {
@@ -144,8 +151,13 @@ void main() {
                                more.w & 0xffff0000u);
         seen = opaque < view.depthRange.y;
       }
-      if (seen) radiance += throughput * shadeSurface(unpackSurface(stored), ray, listed ? nextSurface : opaque);
-      if (listed && seen) throughput *= surfacePass(stored);
+      float at = listed ? nextSurface : opaque;
+      if (seen) {
+        vec3 added = throughput * shadeSurface(unpackSurface(stored), ray, at);
+        radiance += added;
+        if (listed) throughput *= surfacePass(stored);
+        recordEvent(at, at, added, listed ? throughput : vec3(0.0));
+      }
       if (listed) depth = max(depth, nextSurface);
       ++passed;
       walking = listed;

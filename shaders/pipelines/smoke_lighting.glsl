@@ -5,8 +5,12 @@
 #include "shaders/volumes/media.glsl"
 
 // Up to four steps of the march, lit together so that what describes a light is read once for all of them.
-// Component k of each vector is step k; a step that is not there scatters nothing.
+// Component k of each vector is step k; a step that is not there scatters nothing. DEEP wants to know of each by itself.
+#ifdef DEEP
+const int STEPS = 1;
+#else
 const int STEPS = 4;
+#endif
 
 struct Steps {
   int count;

@@ -11,6 +11,7 @@
 
 #include "gl/program.h"
 #include "shaders/shared/aovs.h"
+#include "shaders/shared/deep.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/grids.h"
@@ -48,6 +49,11 @@ const std::map<std::string, Layout>& cppLayouts() {
         {AT(AovPixel, depth), AT(AovPixel, normalX), AT(AovPixel, normalY), AT(AovPixel, normalZ),
          AT(AovPixel, albedoR), AT(AovPixel, albedoG), AT(AovPixel, albedoB), AT(AovPixel, lights),
          AT(AovPixel, fragments), AT(AovPixel, shadowNodes)}}},
+      {"DeepEvent",
+       {sizeof(shared::DeepEvent),
+        {AT(DeepEvent, ray), AT(DeepEvent, front), AT(DeepEvent, back), AT(DeepEvent, addedR),
+         AT(DeepEvent, addedG), AT(DeepEvent, addedB), AT(DeepEvent, throughputR), AT(DeepEvent, throughputG),
+         AT(DeepEvent, throughputB)}}},
       {"DrawData",
        {sizeof(shared::DrawData),
         {AT(DrawData, worldFromObject), AT(DrawData, normalFromObject), AT(DrawData, indices)}}},
