@@ -26,7 +26,11 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& 
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
     frame = pipeline.render(shot.camera, options.width, options.height, quality,
-                            {.aovs = shot.aovs, .onTile = [&] { progress.advance(); }});
+                            {.aovs = shot.aovs,
+                             .countLookups = !options.statistics.empty(),
+                             .deep = !options.deep.empty(),
+                             .deepShadows = shot.deepShadows,
+                             .onTile = [&] { progress.advance(); }});
     seconds.push_back(secondsSince(start));
   }
   return frame;
@@ -74,8 +78,9 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   noteShadowMaps(frame.statistics);
   warnOfProblems(device, frame.statistics);
-  return {std::move(frame.radiance), std::move(frame.aovs), device.names().renderer,
-          statisticsText(device, frame.statistics, times)};
+  return {std::move(frame.radiance), std::move(frame.aovs),
+          std::move(frame.deep),     std::move(frame.deepShadows),
+          device.names().renderer,   statisticsText(device, frame.statistics, times)};
 }
 
 }  // namespace sfumato::app

@@ -1,5 +1,7 @@
 #include "app/statistics_gpu.h"
 
+#include <algorithm>
+
 #include "base/json_text.h"
 
 namespace sfumato::app {
@@ -27,6 +29,15 @@ nlohmann::json toJson(const lists::ListStatistics& lists) {
           {"bytes", lists.bytes}};
 }
 
+nlohmann::json toJson(const pipelines::Lookups& lookups) {
+  const auto perPixel = [&](size_t all, size_t most) {
+    const auto pixels = static_cast<double>(std::max<size_t>(lookups.pixels, 1));
+    return nlohmann::json{{"mean", static_cast<double>(all) / pixels}, {"max", most}};
+  };
+  return {{"lights_per_pixel", perPixel(lookups.lights, lookups.mostLights)},
+          {"shadows_per_pixel", perPixel(lookups.shadows, lookups.mostShadows)}};
+}
+
 nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {
   nlohmann::json result = nlohmann::json::array();
   for (const gl::PassTime& pass : passes)
@@ -48,7 +59,7 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
       {"seconds", times.frameSeconds},          {"passes", toJson(times.framePasses)},
       {"triangles", statistics.triangles},      {"tiles", statistics.tiles},
       {"split_pixels", statistics.splitPixels}, {"resolve_dispatches", statistics.resolveDispatches},
-      {"cut_walks", statistics.cutWalks}};
+      {"cut_walks", statistics.cutWalks},       {"lookups", toJson(statistics.lookups)}};
   result["lists"] = {{"surfaces", toJson(statistics.surfaces)}, {"lights", toJson(statistics.lights)}};
   result["lists"]["shadows"] = nlohmann::json::array();
   for (const deepshadow::LightMap& map : statistics.shadows) {

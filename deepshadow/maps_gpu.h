@@ -89,6 +89,7 @@ class Maps {
   size_t bytes() const;                                               // of texels and knots
   size_t predictedBytes() const { return predictedBytes_; }           // that were counted; 0: no need
   size_t budgetBytes() const { return budgetBytes_; }
+  const std::vector<FaceProjection>& faces(size_t light) const { return projections_[light]; }
   // Texels whose march through smoke or walk over their list was cut at its bound; 0 unless steps are
   // absurdly short or a light passes thousands of objects that shadow once.
   size_t cutMarches() const { return cutMarches_; }

@@ -8,6 +8,9 @@
 
 namespace sfumato::pipelines {
 
+constexpr int maxScatteringOctaves = 8;
+constexpr int usualScatteringOctaves = 4;  // where none are asked for by number
+
 // What a lookup in a deep shadow map asks: the nearest texel, the four around it, or sixteen, under a cubic
 // B-spline, so that edges of shadows are smooth.
 enum class ShadowFilter { Nearest, Bilinear, Soft };
@@ -25,6 +28,9 @@ struct Quality {
   double throughputCutoff = 1e-3;  // a ray ends where less than this of what is behind would be seen
   ShadowFilter surfaceShadows = ShadowFilter::Bilinear;
   ShadowFilter smokeShadows = ShadowFilter::Nearest;
+  // Octaves of multiple scattering beside single scattering, 0 to maxScatteringOctaves: see
+  // shaders/pipelines/multiple_scattering.glsl. No named quality has any.
+  int scatteringOctaves = 0;
   // How all lists are built. The budget is for those that are there at one time: of a window of a light's
   // shadow map, or of the lights and surfaces of a window of the image.
   lists::ListOptions lists{};

@@ -10,6 +10,7 @@
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/view.h"
+#include "shaders/deepshadow/smoke_knot.glsl"
 #include "shaders/lists/runs.glsl"
 #ifdef VOLUME_COUNT
 #include "shaders/deepshadow/smoke_march.glsl"
@@ -43,8 +44,8 @@ const float NOWHERE = 3e38;
 
 uint place = 0u;           // the next half
 uint walked = 0u;
+bool grey = true;          // so that a knot takes half a unit
 #ifdef SURFACES
-bool grey = false;         // so that a knot takes half a unit
 ListRun run = ListRun(0u, 0u);
 uint surface = 0u;         // of the run, the next one
 uint firstUnit = 0u;
@@ -85,7 +86,6 @@ bool surfacesAreGrey() {
   return same;
 }
 #else
-const bool grey = true;
 const vec3 surfaceTau = vec3(0.0);
 #endif
 
@@ -98,15 +98,15 @@ void writeKnot(float depth, vec3 tau) {
   }
 }
 
-// Knots of the surfaces up to `depth`. The optical depth of the smoke is `before` at the knot that was written last, and
-// `tau` at `depth`.
-void writeSurfaces(vec2 before, float depth, float tau, float opaque) {
+// Knots of the surfaces up to a depth, between the smoke's knot that was written last and its next one.
+void writeSurfaces(SmokeKnot before, SmokeKnot next, float opaque) {
 #ifdef SURFACES
-  while (surface < run.count && walked < WALK_LIMIT && listDepth(run.first + surface) <= depth) {
+  while (surface < run.count && walked < WALK_LIMIT && listDepth(run.first + surface) <= next.depth) {
     float at = listDepth(run.first + surface);
     ShadowNode node = surfaceNode(surface);
     vec3 drop = vec3(unpackHalf2x16(node.tauRg), unpackHalf2x16(node.tauBObject).x);
-    float smokeTau = mix(before.y, tau, clamp((at - before.x) / max(depth - before.x, 1e-30), 0.0, 1.0));
+    float along = clamp((at - before.depth) / max(next.depth - before.depth, 1e-30), 0.0, 1.0);
+    vec3 smokeTau = vec3(mix(before.tau, next.tau, along));
 #ifdef SHADOW_NOT_SELF_OBJECTS
     if ((objectOf(node) & uint(SHADOW_NOT_SELF)) != 0u) {
       bool isOpaque = min(min(drop.r, drop.g), drop.b) >= SHADOW_DARK_TAU;
@@ -126,15 +126,15 @@ void writeSurfaces(vec2 before, float depth, float tau, float opaque) {
 }
 
 // A knot of the smoke, after the surfaces before it.
-void writeSmokeKnot(inout vec2 before, vec2 smoke, float opaque) {
-  writeSurfaces(before, smoke.x, smoke.y, opaque);
-  writeKnot(smoke.x, surfaceTau + smoke.y);
+void writeSmokeKnot(inout SmokeKnot before, SmokeKnot smoke, float opaque) {
+  writeSurfaces(before, smoke, opaque);
+  writeKnot(smoke.depth, surfaceTau + smoke.tau);
   before = smoke;
 }
 
 #ifdef VOLUME_COUNT
 const uint KEPT = 24u;
-vec2 kept[KEPT];
+SmokeKnot kept[KEPT];
 
 SmokeRay smokeRay(ivec2 texel, float opaque) {
   vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
@@ -170,7 +170,7 @@ void main() {
   SmokeRay ray = smokeRay(texel, opaque);
   SmokeMarch march = startOfMarch(ray);
   SmokeMarch rest = march;  // after the knots that are kept
-  vec2 fixedKnot;
+  SmokeKnot fixedKnot;
   while (goesOn(march, ray)) {
     if (marchStep(ray, march, fixedKnot)) {
       if (smokeCount < KEPT) kept[smokeCount] = fixedKnot;
@@ -194,6 +194,9 @@ void main() {
 #endif
   grey = ownSteps == 0u && surfacesAreGrey();
 #endif
+#ifdef COLOURED_SMOKE
+  if (smokeCount != 0u) grey = false;
+#endif
 
   uint all = (grey ? (count + 1u) / 2u : count) + ownSteps;
   uint first = all != 0u ? atomicAdd(counters.units, all) : 0u;
@@ -210,7 +213,7 @@ void main() {
   firstUnit = first;
   ownStep = first + count;
 #endif
-  vec2 before = vec2(0.0);
+  SmokeKnot before = SmokeKnot(0.0, Extinction(0.0));
 #ifdef VOLUME_COUNT
   for (uint i = 0u; i < min(smokeCount, KEPT); ++i) writeSmokeKnot(before, kept[i], opaque);
   // A march that gave other knots this time could not write beyond its own.
@@ -223,8 +226,8 @@ void main() {
   }
   for (; left != 0u; --left) writeSmokeKnot(before, before, opaque);
 #endif
-  writeSurfaces(before, NOWHERE, before.y, opaque);
-  if (grey && (count & 1u) != 0u) writeKnot(NOTHING_OPAQUE, surfaceTau + before.y);
+  writeSurfaces(before, SmokeKnot(NOWHERE, before.tau), opaque);
+  if (grey && (count & 1u) != 0u) writeKnot(NOTHING_OPAQUE, surfaceTau + before.tau);
 #ifdef SURFACES
 #ifdef SHADOW_NOT_SELF_OBJECTS
   if (ownSteps != 0u) {

@@ -47,8 +47,9 @@ class MapsGpu : public tests::MapsTest {
       const size_t number = random.next() % map.texels.size();
       const auto [start, rate] = ray(map, number);
       const double depth = std::min(random.uniform(0, 8), double(map.texels[number].opaqueDepth));
-      const double tau = volumes::opticalDepth(known.media, start, start + depth * rate, 0.1);
-      worst = std::max(worst, std::abs(map.transmittance(number, depth).r - std::exp(-tau)));
+      const dvec3 tau = volumes::opticalDepth(known.media, start, start + depth * rate, 0.1);
+      const dvec3 error = glm::abs(map.transmittance(number, depth) - glm::exp(-tau));
+      worst = std::max({worst, error.r, error.g, error.b});
     }
     return worst;
   }
@@ -76,6 +77,34 @@ TEST_F(MapsGpu, TransmittanceOfSmokeStaysWithinTheErrorBoundForEveryLight) {
           << "bound " << bound << ", light " << static_cast<int>(light.type);
     }
   }
+}
+
+TEST_F(MapsGpu, ColouredSmokeStaysWithinTheErrorBoundInEveryChannel) {
+  KnownScene known = smokeUnder(tests::spotLight({1, 5, 2}, {0, 1, 0}, dvec3(1), 0.2, 0.5));
+  known.media[0].extinctionColour = {0.1, 0.4, 1};
+  known.media[1].extinctionColour = {2, 0, 0.5};
+  for (const double bound : {1.0 / 32, 1.0 / 512})
+    EXPECT_LT(worstError(build(known, 64, bound), known), bound + 1.0 / 1500) << "bound " << bound;
+}
+
+// exp(tau) of one channel is beyond what floats hold.
+TEST_F(MapsGpu, AChannelThatIsDarkLeavesTheOthersAlone) {
+  KnownScene known{"block", {}, {}};
+  known.scene.lights = {tests::directionalLight({0, -1, 0}, dvec3(1))};
+  known.media = {tests::block({-1, 0, -1}, {1, 2, 1}, {4, 64, 4}, 500.0, dvec3(0.5), 0)};
+  known.media[0].extinctionColour = {0.001, 0, 1};
+  const ReadMap map = build(known, 64, 1.0 / 512);
+  size_t through = 0;
+  for (size_t number = 0; number < map.texels.size(); ++number) {
+    const auto [start, rate] = ray(map, number);
+    if (std::abs(start.x) > 0.6 || std::abs(start.z) > 0.6) continue;
+    ++through;
+    const dvec3 behind = map.transmittance(number, start.y + 1);
+    EXPECT_NEAR(behind.r, std::exp(-1.0), 1.0 / 512) << number;
+    EXPECT_EQ(behind.g, 1) << number;
+    EXPECT_LT(behind.b, 1e-6) << number;
+  }
+  EXPECT_GT(through, 10u);
 }
 
 TEST_F(MapsGpu, ATighterBoundTakesMoreKnotsAndZeroKeepsEveryStep) {
