@@ -394,7 +394,8 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height,  options.countLookups, deepBytes};
+                          width,         height,  options.countLookups,
+                          deepBytes};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
