@@ -25,6 +25,7 @@ struct RenderOptions {
   std::optional<double> volumeScale;
   glm::dvec3 volumeAlbedo{0.9};
   double volumeG = 0;
+  std::string volumeMemory;  // empty: what the device allows
   std::vector<std::string> outputs;
   int width = 1280;
   int height = 720;

@@ -190,8 +190,7 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
   for (size_t i = 0; i < shot.media.size(); ++i) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
     base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {:.1f} MiB\n", scene.volumes[i].file,
-                grid.name, grid.size.x, grid.size.y, grid.size.z,
-                static_cast<double>(grid.bytes()) / 0x1p20);
+                grid.name, grid.size.x, grid.size.y, grid.size.z, static_cast<double>(grid.bytes()) / 0x1p20);
   }
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
