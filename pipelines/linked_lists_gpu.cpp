@@ -370,8 +370,9 @@ shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
-                                         std::span<const volumes::Medium> media)
-    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media) {
+                                         std::span<const volumes::Medium> media,
+                                         const volumes::GridOptions& gridOptions)
+    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media, gridOptions) {
   for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
