@@ -35,21 +35,26 @@ vec2 joined(vec2 a, vec2 b) {
 // Depths of a pixel's opaque surface as the rays through its centre and its samples meet it. `open`: one sees none.
 vec2 opaqueRange(ivec2 pixel, inout bool open) {
   ivec2 texel = pixel - view.tile.xy;
-  vec2 centre = imagePlane(view, vec2(pixel) + 0.5);
+  float depths[SAMPLES];
   vec2 range = NOTHING;
   for (int i = 0; i < SAMPLES; ++i) {
-    float depth = texelFetch(opaqueDepth, texel, i).r;
-    if (depth < NOTHING_SEEN) {
-      range = joined(range, vec2(depth));
+    depths[i] = texelFetch(opaqueDepth, texel, i).r;
+    if (depths[i] < NOTHING_SEEN) range = joined(range, vec2(depths[i]));
+    else open = true;
+  }
 #if SAMPLES > 1
-      vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(texelFetch(opaqueSurface0, texel, i).y));
+  // Samples of one depth at the centre are of one plane.
+  vec2 centre = imagePlane(view, vec2(pixel) + 0.5);
+  vec3 normal = vec3(0.0);
+  for (int i = 0; i < SAMPLES; ++i) {
+    if (depths[i] < NOTHING_SEEN) {
+      if (i == 0 || depths[i] != depths[max(i - 1, 0)])
+        normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(texelFetch(opaqueSurface0, texel, i).y));
       vec2 there = imagePlane(view, vec2(pixel) + samplePosition(params, i));
-      range = joined(range, vec2(depthOnPlane(view, normal, centre, depth, there)));
-#endif
-    } else {
-      open = true;
+      range = joined(range, vec2(depthOnPlane(view, normal, centre, depths[i], there)));
     }
   }
+#endif
   return range;
 }
 
