@@ -24,6 +24,7 @@ gl::Buffer receiverDepths(gl::Device& device, const ReceiverInputs& inputs) {
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
   inputs.gbuffer.surface0.bind(TEXTURE_SURFACE_0);
   inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
+  inputs.pixelGroups.bindStorage(STORAGE_PIXEL_GROUPS);
   inputs.volumes.bind();
   depths.bindStorage(STORAGE_RECEIVER_DEPTHS);
   gl::dispatchLinear(device.program({"pipelines/receivers.comp"}, defines), cells);

@@ -18,6 +18,9 @@ layout(std140, binding = UNIFORM_PASS) uniform Pass {
 layout(std430, binding = STORAGE_RECEIVER_DEPTHS) writeonly buffer Receivers {
   vec2 receivers[];
 };
+layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
+  uint pixelGroups[];
+};
 #ifdef SMOKE
 layout(std430, binding = STORAGE_VOLUMES) readonly buffer Volumes {
   VolumeData volumes[];
@@ -32,26 +35,23 @@ vec2 joined(vec2 a, vec2 b) {
   return vec2(min(a.x, b.x), max(a.y, b.y));
 }
 
-// Depths of a pixel's opaque surface as the rays through its centre and its samples meet it. `open`: one sees none.
+// Depths of a pixel's opaque surface as its rays meet it. `open`: one sees none.
 vec2 opaqueRange(ivec2 pixel, inout bool open) {
   ivec2 texel = pixel - view.tile.xy;
-  float depths[SAMPLES];
-  vec2 range = NOTHING;
-  for (int i = 0; i < SAMPLES; ++i) {
-    depths[i] = texelFetch(opaqueDepth, texel, i).r;
-    if (depths[i] < NOTHING_SEEN) range = joined(range, vec2(depths[i]));
-    else open = true;
-  }
+  float depth = texelFetch(opaqueDepth, texel, 0).r;
+  vec2 range = depth < NOTHING_SEEN ? vec2(depth) : NOTHING;
+  open = open || depth >= NOTHING_SEEN;
 #if SAMPLES > 1
-  // Samples of one depth at the centre are of one plane.
+  if (pixelGroups[listOfPixel(view, pixel)] == 0u) return range;
   vec2 centre = imagePlane(view, vec2(pixel) + 0.5);
-  vec3 normal = vec3(0.0);
+  range = NOTHING;
   for (int i = 0; i < SAMPLES; ++i) {
-    if (depths[i] < NOTHING_SEEN) {
-      if (i == 0 || depths[i] != depths[max(i - 1, 0)])
-        normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(texelFetch(opaqueSurface0, texel, i).y));
+    depth = texelFetch(opaqueDepth, texel, i).r;
+    open = open || depth >= NOTHING_SEEN;
+    if (depth < NOTHING_SEEN) {
+      vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(texelFetch(opaqueSurface0, texel, i).y));
       vec2 there = imagePlane(view, vec2(pixel) + samplePosition(params, i));
-      range = joined(range, vec2(depthOnPlane(view, normal, centre, depths[i], there)));
+      range = joined(range, vec2(depthOnPlane(view, normal, centre, depth, there)));
     }
   }
 #endif
