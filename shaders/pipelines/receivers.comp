@@ -35,27 +35,23 @@ vec2 joined(vec2 a, vec2 b) {
   return vec2(min(a.x, b.x), max(a.y, b.y));
 }
 
-// Depths of a pixel's opaque surface as its rays meet it. `open`: one sees none.
-vec2 opaqueRange(ivec2 pixel, inout bool open) {
+// Of the opaque surface that a pixel's rays meet. `open`: one meets none.
+void addDepth(float depth, inout vec2 range, inout bool open) {
+  if (depth < NOTHING_SEEN) range = joined(range, vec2(depth));
+  else open = true;
+}
+
+void addSamples(ivec2 pixel, inout vec2 range, inout bool open) {
   ivec2 texel = pixel - view.tile.xy;
-  float depth = texelFetch(opaqueDepth, texel, 0).r;
-  vec2 range = depth < NOTHING_SEEN ? vec2(depth) : NOTHING;
-  open = open || depth >= NOTHING_SEEN;
-#if SAMPLES > 1
-  if (pixelGroups[listOfPixel(view, pixel)] == 0u) return range;
   vec2 centre = imagePlane(view, vec2(pixel) + 0.5);
-  range = NOTHING;
   for (int i = 0; i < SAMPLES; ++i) {
-    depth = texelFetch(opaqueDepth, texel, i).r;
-    open = open || depth >= NOTHING_SEEN;
+    float depth = texelFetch(opaqueDepth, texel, i).r;
     if (depth < NOTHING_SEEN) {
       vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(texelFetch(opaqueSurface0, texel, i).y));
-      vec2 there = imagePlane(view, vec2(pixel) + samplePosition(params, i));
-      range = joined(range, vec2(depthOnPlane(view, normal, centre, depth, there)));
+      depth = depthOnPlane(view, normal, centre, depth, imagePlane(view, vec2(pixel) + samplePosition(params, i)));
     }
+    addDepth(depth, range, open);
   }
-#endif
-  return range;
 }
 
 // Of a pixel's translucent surfaces.
@@ -122,11 +118,19 @@ void main() {
   bool open = false;
   vec2 opaque = NOTHING;
   vec2 listed = NOTHING;
-  for (int y = low.y; y < high.y; ++y) {
-    for (int x = low.x; x < high.x; ++x) {
-      opaque = joined(opaque, opaqueRange(ivec2(x, y), open));
-      listed = joined(listed, listedRange(ivec2(x, y)));
-    }
+  // Pixels that are split are put off: few cells have any, and some drivers skip loops only.
+  ivec2 size = high - low;
+  uint split = 0u;
+  for (int i = 0; i < size.x * size.y; ++i) {
+    ivec2 pixel = low + ivec2(i % size.x, i / size.x);
+    if (pixelGroups[listOfPixel(view, pixel)] != 0u) split |= 1u << i;
+    else addDepth(texelFetch(opaqueDepth, pixel - view.tile.xy, 0).r, opaque, open);
+    listed = joined(listed, listedRange(pixel));
+  }
+  while (split != 0u) {
+    int i = findLSB(split);
+    addSamples(low + ivec2(i % size.x, i / size.x), opaque, open);
+    split &= split - 1u;
   }
   vec2 range = joined(opaque, listed);
 #ifdef SMOKE
