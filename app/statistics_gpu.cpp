@@ -66,9 +66,16 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
     nlohmann::json light = toJson(map.lists);
     light["faces"] = map.faces;
     light["texels"] = map.texels;
-    light["knots"] = map.knots;
+    light["resolution"] = map.resolution;
+    light["knot_bytes"] = map.knotBytes;
     result["lists"]["shadows"].push_back(light);
   }
+  const pipelines::ShadowFigures& maps = statistics.shadowMaps;
+  result["shadow_maps"] = {{"error", maps.error},
+                           {"lowered", maps.lowered},
+                           {"bytes", maps.bytes},
+                           {"predicted_bytes", maps.predictedBytes},
+                           {"budget_bytes", maps.budgetBytes}};
   result["memory"] = {{"peak_bytes", device.memory().peakBytes()},
                       {"peak_bytes_by_label", device.memory().peakBytesByLabel()}};
   return base::jsonText(result);

@@ -7,8 +7,10 @@
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/aovs_gpu.h"
+#include "pipelines/deep_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
+#include "pipelines/shadow_resolution.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
@@ -32,11 +34,12 @@ std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
 }
 
 gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const GeometryGpu& geometry,
-                                 size_t samples) {
+                                 size_t samples, int scatteringOctaves) {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)}};
   if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
+  if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
   return gl::joined(defines, volumes.defines());
 }
 
@@ -66,6 +69,7 @@ struct ResolveInputs {
   const Quality& quality;
   Tile window;
   bool countLookups;
+  size_t deepBytes;  // most that a deep image takes
 };
 
 template <typename Inputs>
@@ -81,7 +85,8 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   shared::ResolveParams params{};
   params.march = {static_cast<float>(inputs.quality.stepVoxels),
                   static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
-  params.options = {1, inputs.quality.bilinearSmokeShadows ? 1 : 0, inputs.lights.directionalLights(), 0};
+  params.options = {1, tapsOf(inputs.quality.surfaceShadows) + 8 * tapsOf(inputs.quality.smokeShadows),
+                    inputs.lights.directionalLights(), 0};
   setSamples(params, inputs.gbuffer);
   return params;
 }
@@ -179,40 +184,50 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  gl::ShaderDefines defines = resolveDefines(inputs.volumes, inputs.geometry, samples);
+  gl::ShaderDefines defines =
+      resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (frame.deep) defines.emplace_back("DEEP", "1");
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
   gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec2) : 0);
-  shared::ResolveParams params = resolveParams(inputs);
-  params.options.w = static_cast<int>(rayCount);
 
-  int dispatches = 0;
-  shared::ResolveCounters counted{};
-  do {
-    base::check(dispatches < maxResolveDispatches, "the resolve ends");
-    passBlock.writeValue(params);
-    counters.clear();
-    bindRayInputs(inputs);
-    passBlock.bindUniform(UNIFORM_PASS);
-    rays.bindStorage(STORAGE_RAYS);
-    split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
-    counters.bindStorage(STORAGE_COUNTERS);
-    lookups.bindStorage(STORAGE_LOOKUPS);
-    inputs.lights.bind();
-    inputs.shadows.bind();
-    inputs.volumes.bind();
-    gl::dispatchLinear(program, rayCount);
-    gl::storageBarrier();
-    counted = counters.readValue<shared::ResolveCounters>();
-    frame.statistics.cutWalks += counted.boundHit;
-    ++dispatches;
-    params.options.x = 0;
-  } while (counted.unfinished > 0);
+  const auto walk = [&](size_t count) {
+    shared::ResolveParams params = resolveParams(inputs);
+    params.options.w = static_cast<int>(count);
+    int dispatches = 0;
+    shared::ResolveCounters counted{};
+    do {
+      base::check(dispatches < maxResolveDispatches, "the resolve ends");
+      passBlock.writeValue(params);
+      counters.clear();
+      bindRayInputs(inputs);
+      passBlock.bindUniform(UNIFORM_PASS);
+      rays.bindStorage(STORAGE_RAYS);
+      split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
+      counters.bindStorage(STORAGE_COUNTERS);
+      lookups.bindStorage(STORAGE_LOOKUPS);
+      inputs.lights.bind();
+      inputs.shadows.bind();
+      inputs.volumes.bind();
+      gl::dispatchLinear(program, count);
+      gl::storageBarrier();
+      counted = counters.readValue<shared::ResolveCounters>();
+      frame.statistics.cutWalks += counted.boundHit;
+      ++dispatches;
+      params.options.x = 0;
+    } while (counted.unfinished > 0);
+    frame.statistics.resolveDispatches += dispatches;
+  };
+  if (frame.deep)
+    recordDeep(device,
+               {inputs.window, split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1, walk},
+               inputs.deepBytes, *frame.deep);
+  else
+    walk(rayCount);
   frame.statistics.splitPixels += split.count;
-  frame.statistics.resolveDispatches += dispatches;
   readRays(rays, split, rayCount, inputs, frame);
   if (inputs.countLookups) readLookups(lookups, split, rayCount, inputs, frame.statistics.lookups);
   return true;
@@ -229,6 +244,7 @@ struct TileInputs {
   int width = 0;
   int height = 0;
   bool countLookups = false;
+  size_t deepBytes = 0;  // most that a deep image takes
 };
 
 // Draws a frame tile by tile.
@@ -305,7 +321,7 @@ class TilePainter {
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups},
+                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepBytes},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -343,17 +359,19 @@ class TilePainter {
 // The camera's view with clip planes close around the surfaces that are seen: it shows the same, and the
 // depth test tells more depths apart. `seen`: points whose hull holds those surfaces.
 shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
-                             const std::vector<glm::dvec3>& seen) {
+                             const std::vector<std::vector<glm::dvec3>>& seen) {
   shared::ViewParams view = scene::cameraView(camera, width, height);
-  if (seen.empty()) return view;
   const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
   double nearest = scene::infinity;
   double farthest = 0;
-  for (const glm::dvec3& p : seen) {
-    const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
+  for (const std::vector<glm::dvec3>& part : seen) {
+    for (const glm::dvec3& p : part) {
+      const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
   }
+  if (nearest > farthest) return view;
   constexpr double slack = 1e-3;
   constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
   scene::Camera tight = camera;
@@ -372,50 +390,74 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
   device.program({"pipelines/resolve.comp"},
-                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples)));
+                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples), 0));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
   const double aspect = static_cast<double>(width) / height;
-  const std::vector<glm::dvec3> seen = scene::visiblePoints(scene_, {}, camera, aspect);
-  const deepshadow::Maps shadows = buildShadows(camera, aspect, seen, quality);
+  const auto seen = scene::visibleParts(scene_, camera, aspect);
+  const deepshadow::Maps shadows = buildShadows(camera, width, height, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
+  const size_t deepBytes = std::min(options.deepBytes, mostDeepBytes());
+  if (options.deep) {
+    frame.deep = image::DeepImage(width, height);
+    frame.deep->view = deepView(scene::cameraView(camera, width, height));
+  }
+  for (const size_t light : options.deepShadows)
+    frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height,  options.countLookups};
+                          width,         height,  options.countLookups,
+                          deepBytes};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
     options.onTile();
   }
   frame.statistics.shadows = shadows.lights();
+  frame.statistics.shadowMaps = {.error = shadows.plan().error,
+                                 .lowered = shadows.lowered(),
+                                 .bytes = shadows.bytes(),
+                                 .predictedBytes = shadows.predictedBytes(),
+                                 .budgetBytes = shadows.budgetBytes()};
   frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = geometry_.triangles();
   return frame;
 }
 
-deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, double aspect,
-                                                   const std::vector<glm::dvec3>& seen,
+deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, int width, int height,
+                                                   const std::vector<std::vector<glm::dvec3>>& seen,
                                                    const Quality& quality) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  std::vector<glm::dvec3> receivers = scene::visiblePoints({}, mediaBoxes_, camera, aspect);
-  receivers.insert(receivers.end(), seen.begin(), seen.end());
+  std::vector<glm::dvec3> receivers;
+  std::vector<scene::Bounds> parts;
+  const double aspect = static_cast<double>(width) / height;
+  for (const auto& all : {scene::visibleParts(mediaBoxes_, camera, aspect), seen}) {
+    for (const std::vector<glm::dvec3>& part : all) {
+      receivers.insert(receivers.end(), part.begin(), part.end());
+      parts.push_back(scene::boundsOf(part));
+    }
+  }
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce(),
                               .notSelf = geometry_.hasNotSelf(),
                               .defines = geometry_.defines()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
-  return deepshadow::Maps(device_, {.lights = scene_.lights,
-                                    .casters = casters,
-                                    .volumes = volumes_,
-                                    .receivers = receivers,
-                                    .castingPoints = castingPoints,
-                                    .resolution = quality.shadowResolution,
-                                    .stepVoxels = quality.stepVoxels,
-                                    .error = quality.shadowError,
-                                    .lists = quality.lists});
+  return deepshadow::Maps(
+      device_,
+      {.lights = scene_.lights,
+       .casters = casters,
+       .volumes = volumes_,
+       .receivers = receivers,
+       .castingPoints = castingPoints,
+       .plan = {shadowResolutions(scene_.lights, parts, camera, width, height, quality), quality.shadowError},
+       .budget = {.bytes = quality.shadowMemory,
+                  .lowerResolution = !quality.exactShadowResolution,
+                  .loosenError = !quality.exactShadowError},
+       .stepVoxels = quality.stepVoxels,
+       .lists = quality.lists});
 }
 
 }  // namespace sfumato::pipelines

@@ -17,7 +17,10 @@ gl::Buffer receiverDepths(gl::Device& device, const ReceiverInputs& inputs) {
   setSamples(params, inputs.gbuffer);
   passBlock.writeValue(params);
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(inputs.gbuffer.samplePositions.size())}};
-  if (!inputs.volumes.empty()) defines.emplace_back("SMOKE", "1");
+  if (!inputs.volumes.empty()) {
+    defines.emplace_back("SMOKE", "1");
+    defines = gl::joined(defines, inputs.volumes.defines());
+  }
 
   inputs.view.bindUniform(UNIFORM_VIEW);
   passBlock.bindUniform(UNIFORM_PASS);

@@ -1368,6 +1368,8 @@ VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm:
   volume.gridName = text(faults, extras, "volume_grid", where);
   volume.scale =
       faults.notNegative(number(faults, extras, "volume_scale", volume.scale, where), where, "volume_scale");
+  volume.extinctionColour = numbers(faults, extras, "volume_extinction", volume.extinctionColour, where);
+  for (int c = 0; c < 3; ++c) faults.inRange(volume.extinctionColour[c], 0, 1e6, where, "volume_extinction");
   volume.albedo = numbers(faults, extras, "volume_albedo", volume.albedo, where);
   for (int c = 0; c < 3; ++c) faults.inRange(volume.albedo[c], 0, 1, where, "volume_albedo");
   volume.g = number(faults, extras, "volume_g", volume.g, where);

@@ -1,13 +1,15 @@
 // Between which depths something that is seen in a cell of the light lists can be lit: opaque and translucent surfaces, and
 // the boxes of media up to the farthest opaque surface. A cell an invocation.
-// SAMPLES is how many a pixel of the G-buffer has; SMOKE is defined when there are media.
+// SAMPLES is how many a pixel of the G-buffer has; SMOKE is defined when there are media; then VOLUME_COUNT says how many.
 #include "shaders/lights/light_lists.glsl"
 #include "shaders/lists/runs.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve.h"
-#include "shaders/shared/volumes.h"
+#ifdef SMOKE
+#include "shaders/volumes/grid.glsl"
+#endif
 
 layout(std140, binding = UNIFORM_VIEW) uniform View {
   ViewParams view;
@@ -21,11 +23,6 @@ layout(std430, binding = STORAGE_RECEIVER_DEPTHS) writeonly buffer Receivers {
 layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
   uint pixelGroups[];
 };
-#ifdef SMOKE
-layout(std430, binding = STORAGE_VOLUMES) readonly buffer Volumes {
-  VolumeData volumes[];
-};
-#endif
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 
@@ -70,26 +67,26 @@ vec2 cutBelow(vec2 range, float low, float rateLow, float top) {
 }
 
 // Where a ray through any place of a rectangle of the image can be inside a medium's box: by intervals along each axis.
-vec2 mediumRange(VolumeData volume, vec2 planeLow, vec2 planeHigh) {
+vec2 mediumRange(GridData grid, vec2 planeLow, vec2 planeHigh) {
   bool orthographic = view.halfExtent.z != 0.0;
-  mat4 textureFromView = volume.textureFromWorld * view.worldFromView;
-  vec3 x0 = textureFromView[0].xyz * planeLow.x;
-  vec3 x1 = textureFromView[0].xyz * planeHigh.x;
-  vec3 y0 = textureFromView[1].xyz * planeLow.y;
-  vec3 y1 = textureFromView[1].xyz * planeHigh.y;
+  mat4 gridFromView = grid.gridFromWorld * view.worldFromView;
+  vec3 x0 = gridFromView[0].xyz * planeLow.x;
+  vec3 x1 = gridFromView[0].xyz * planeHigh.x;
+  vec3 y0 = gridFromView[1].xyz * planeLow.y;
+  vec3 y1 = gridFromView[1].xyz * planeHigh.y;
   vec3 asideLow = min(x0, x1) + min(y0, y1);
   vec3 asideHigh = max(x0, x1) + max(y0, y1);
-  vec3 forward = -textureFromView[2].xyz;
-  vec3 start = textureFromView[3].xyz;
+  vec3 forward = -gridFromView[2].xyz;
+  vec3 start = gridFromView[3].xyz;
   vec3 startLow = orthographic ? start + asideLow : start;
   vec3 startHigh = orthographic ? start + asideHigh : start;
   vec3 rateLow = orthographic ? forward : forward + asideLow;
   vec3 rateHigh = orthographic ? forward : forward + asideHigh;
-  vec3 slack = 1e-5 * (abs(start) + abs(volume.boxMin.xyz) + abs(volume.boxMax.xyz));
+  vec3 slack = 1e-5 * (abs(start) + abs(grid.boxMin.xyz) + abs(grid.boxMax.xyz));
   vec2 range = view.depthRange.xy;
   for (int axis = 0; axis < 3; ++axis) {
-    range = cutBelow(range, startLow[axis], rateLow[axis], volume.boxMax[axis] + slack[axis]);
-    range = cutBelow(range, -startHigh[axis], -rateHigh[axis], slack[axis] - volume.boxMin[axis]);
+    range = cutBelow(range, startLow[axis], rateLow[axis], grid.boxMax[axis] + slack[axis]);
+    range = cutBelow(range, -startHigh[axis], -rateHigh[axis], slack[axis] - grid.boxMin[axis]);
   }
   return range.x <= range.y ? vec2(range.x * 0.9999, range.y * 1.0001) : NOTHING;
 }
@@ -98,8 +95,8 @@ vec2 smokeRange(ivec2 low, ivec2 high, float farthest) {
   vec2 planeLow = imagePlane(view, vec2(low));
   vec2 planeHigh = imagePlane(view, vec2(high));
   vec2 range = NOTHING;
-  for (int v = 0; v < volumes.length(); ++v) {
-    vec2 ofMedium = mediumRange(volumes[v], planeLow, planeHigh);
+  for (int v = 0; v < VOLUME_COUNT; ++v) {
+    vec2 ofMedium = mediumRange(grids[v], planeLow, planeHigh);
     if (ofMedium.x <= farthest) range = joined(range, ofMedium);
   }
   return vec2(range.x, min(range.y, farthest));
