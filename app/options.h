@@ -24,6 +24,7 @@ struct RenderOptions {
   std::vector<std::string> volumes;  // .vdb
   std::string grid;                  // of the volumes given by flags
   std::optional<double> volumeScale;
+  glm::dvec3 volumeExtinction{1};
   glm::dvec3 volumeAlbedo{0.9};
   double volumeG = 0;
   std::vector<std::string> outputs;
@@ -37,8 +38,12 @@ struct RenderOptions {
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
-  std::string lists;       // a strategy; empty: the device's
-  std::string listMemory;  // empty: what the device allows
+  std::optional<double> shadowError;
+  std::string shadowFilter;  // empty: by quality
+  std::string shadowMemory;  // empty: what the device reads
+  int scatteringOctaves = 0;  // of multiple scattering
+  std::string lists;         // a strategy; empty: the device's
+  std::string listMemory;    // empty: what the device allows
   std::string onOverflow = "window";
   bool reference = false;  // drawn by the CPU reference
   int samples = 1;         // a side of the pixel, of the reference

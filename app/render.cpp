@@ -1,6 +1,7 @@
 // `sfumato render`: files to a scene, the scene to a frame, the frame to files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -13,6 +14,7 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "base/log.h"
+#include "base/size_text.h"
 #include "base/version.h"
 #include "image/image_file.h"
 #include "pipelines/reference.h"
@@ -43,6 +45,7 @@ void addVolumes(const RenderOptions& options, scene::Scene& scene) {
     volume.file = file;
     volume.gridName = options.grid;
     volume.scale = options.volumeScale.value_or(1);
+    volume.extinctionColour = options.volumeExtinction;
     volume.albedo = options.volumeAlbedo;
     volume.g = options.volumeG;
     scene.volumes.push_back(volume);
@@ -57,6 +60,24 @@ void addDefaults(const RenderOptions& options, scene::Scene& scene, std::vector<
                media[i].scale, scene::fittingOpticalDepth);
   }
   scene::addDefaultSet(scene, scene::boundsOf(media), yfovOf(options), aspectOf(options));
+}
+
+bool glows(const scene::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
+    return material.unlit || material.emissive != glm::vec3(0.f);
+  });
+}
+
+// Sets come without lights as often as with them.
+void lightTheDark(const RenderOptions& options, scene::Scene& scene) {
+  if (!scene.lights.empty()) return;
+  if (glows(scene)) {
+    base::warn("{}: no lights: only what glows is seen", options.scene);
+  } else {
+    scene::addDefaultLights(scene);
+    base::warn("{}: no lights: two directional ones are added: put lights into the file to choose them",
+               options.scene);
+  }
 }
 
 // The camera that --camera names, the first one, or nothing.
@@ -96,7 +117,15 @@ scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& sce
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  if (options.shadowResolution) quality.shadowResolution = *options.shadowResolution;
+  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.exactShadowResolution = options.shadowResolution.has_value();
+  quality.shadowError = options.shadowError.value_or(quality.shadowError);
+  quality.exactShadowError = options.shadowError.has_value();
+  if (!options.shadowFilter.empty())
+    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
+  if (!options.shadowMemory.empty())
+    quality.shadowMemory = lists::bytesNamed(options.shadowMemory, "--shadow-memory");
+  quality.scatteringOctaves = options.scatteringOctaves;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
@@ -124,6 +153,7 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                             {"sfumato:size", fmt::format("{}x{}", options.width, options.height)},
                             {"sfumato:quality", options.quality},
                             {"sfumato:step_voxels", fmt::format("{}", shot.quality.stepVoxels)},
+                            {"sfumato:scattering_octaves", fmt::format("{}", options.scatteringOctaves)},
                             {"sfumato:exposure_stops", fmt::format("{}", options.exposureStops)},
                             {"sfumato:camera_position", numbers(camera.worldFromView[3])},
                             {"sfumato:camera_direction", numbers(-glm::dvec3(camera.worldFromView[2]))},
@@ -138,13 +168,17 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
     result.emplace_back("sfumato:samples_at_edges", fmt::format("{}", shot.quality.samples));
     result.emplace_back("sfumato:shadow_resolution", fmt::format("{}", shot.quality.shadowResolution));
     result.emplace_back("sfumato:shadow_error", fmt::format("{}", shot.quality.shadowError));
+    result.emplace_back("sfumato:shadow_filter", fmt::format("{} on surfaces, {} in smoke",
+                                                             pipelines::nameOf(shot.quality.surfaceShadows),
+                                                             pipelines::nameOf(shot.quality.smokeShadows)));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
   }
   for (size_t i = 0; i < shot.media.size(); ++i)
-    result.emplace_back(fmt::format("sfumato:volume{}", i),
-                        fmt::format("{}: grid \"{}\", scale {}, albedo {}, g {}", shot.scene.volumes[i].file,
-                                    shot.media[i].grid.name, shot.media[i].scale,
-                                    numbers(shot.media[i].albedo), shot.media[i].g));
+    result.emplace_back(
+        fmt::format("sfumato:volume{}", i),
+        fmt::format("{}: grid \"{}\", scale {}, extinction {}, albedo {}, g {}", shot.scene.volumes[i].file,
+                    shot.media[i].grid.name, shot.media[i].scale, numbers(shot.media[i].extinctionColour),
+                    numbers(shot.media[i].albedo), shot.media[i].g));
   return result;
 }
 
@@ -192,9 +226,9 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
               scene.materials.size(), scene.lights.size());
   for (size_t i = 0; i < shot.media.size(); ++i) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
-    base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {:.1f} MiB\n", scene.volumes[i].file,
-                grid.name, grid.size.x, grid.size.y, grid.size.z,
-                static_cast<double>(grid.values.size() * sizeof(float)) / 0x1p20);
+    base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {}
+", scene.volumes[i].file, grid.name,
+                grid.size.x, grid.size.y, grid.size.z, base::sizeText(grid.bytes()));
   }
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
@@ -232,14 +266,16 @@ Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_
   std::vector<double> seconds;
   for (int i = 0; i < options.repeat; ++i) {
     const Clock::time_point frameStart = Clock::now();
-    pipelines::ReferenceFrame frame = pipelines::traceReference(shot.scene, shot.camera, shot.media,
-                                                                {.width = options.width,
-                                                                 .height = options.height,
-                                                                 .samples = options.samples,
-                                                                 .stepVoxels = shot.quality.stepVoxels,
-                                                                 .shadowStepVoxels = shot.quality.stepVoxels,
-                                                                 .showProgress = true,
-                                                                 .aovs = shot.aovs});
+    pipelines::ReferenceFrame frame =
+        pipelines::traceReference(shot.scene, shot.camera, shot.media,
+                                  {.width = options.width,
+                                   .height = options.height,
+                                   .samples = options.samples,
+                                   .stepVoxels = shot.quality.stepVoxels,
+                                   .shadowStepVoxels = shot.quality.stepVoxels,
+                                   .scatteringOctaves = options.scatteringOctaves,
+                                   .showProgress = true,
+                                   .aovs = shot.aovs});
     drawn.radiance = std::move(frame.radiance);
     drawn.aovs = std::move(frame.aovs);
     seconds.push_back(secondsSince(frameStart));
@@ -265,8 +301,7 @@ Shot makeShot(const RenderOptions& options) {
   addVolumes(options, shot.scene);
   shot.media = scene::readMedia(shot.scene);
   if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
-  if (shot.scene.lights.empty())
-    base::warn("{}: no lights: the picture will be black but for what glows", options.scene);
+  lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
   shot.aovs = wantedAovs(options);

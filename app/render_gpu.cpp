@@ -1,4 +1,9 @@
 // The frame of `sfumato render` on the GPU.
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+
 #include "app/shot.h"
 #include "app/statistics_gpu.h"
 #include "base/log.h"
@@ -20,11 +25,12 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& 
   for (int i = 0; i < options.repeat; ++i) {
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
-    frame = pipeline.render(
-        shot.camera, options.width, options.height, quality,
-        {.aovs = shot.aovs, .deep = !options.deep.empty(), .deepShadows = shot.deepShadows, .onTile = [&] {
-           progress.advance();
-         }});
+    frame = pipeline.render(shot.camera, options.width, options.height, quality,
+                            {.aovs = shot.aovs,
+                             .countLookups = !options.statistics.empty(),
+                             .deep = !options.deep.empty(),
+                             .deepShadows = shot.deepShadows,
+                             .onTile = [&] { progress.advance(); }});
     seconds.push_back(secondsSince(start));
   }
   return frame;
@@ -37,6 +43,19 @@ void warnOfProblems(gl::Device& device, const pipelines::FrameStatistics& statis
         "{} walks were longer than a bound and cut: the picture lacks light or smoke there: use a longer "
         "--step or fewer lights",
         statistics.cutWalks);
+}
+
+void noteShadowMaps(const pipelines::FrameStatistics& statistics) {
+  const pipelines::ShadowFigures& maps = statistics.shadowMaps;
+  std::map<int, int, std::greater<>> lights;  // by resolution
+  for (const deepshadow::LightMap& map : statistics.shadows)
+    if (map.faces > 0) ++lights[map.resolution];
+  std::string resolutions;
+  for (const auto& [resolution, count] : lights)
+    resolutions += fmt::format("{}{} of {}", resolutions.empty() ? "" : ", ", count, resolution);
+  base::note("shadow maps: {} texels a side, error bound {:.5f}: {:.1f} MiB of {:.0f}{}",
+             resolutions.empty() ? "none" : resolutions, maps.error, static_cast<double>(maps.bytes) / 0x1p20,
+             static_cast<double>(maps.budgetBytes) / 0x1p20, maps.lowered ? ": coarser, to fit" : "");
 }
 
 }  // namespace
@@ -57,6 +76,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   pipelines::Frame frame = drawFrames(device, pipeline, shot, options, times.frameSeconds);
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
+  noteShadowMaps(frame.statistics);
   warnOfProblems(device, frame.statistics);
   return {std::move(frame.radiance), std::move(frame.aovs),
           std::move(frame.deep),     std::move(frame.deepShadows),

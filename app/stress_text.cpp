@@ -5,15 +5,12 @@
 #include <map>
 
 #include "app/stress.h"
+#include "base/size_text.h"
 
 namespace sfumato::app {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string mebibytes(size_t bytes) {
-  return fmt::format("{:.2f}", static_cast<double>(bytes) / 0x1p20);
-}
 
 // Millions a second.
 std::string rate(size_t count, double seconds) {
@@ -64,7 +61,7 @@ Row rowOf(const StressRun& run) {
              sizeOf(run),
              std::to_string(run.synthetic ? run.synthetic->layers : run.lights),
              run.synthetic ? std::to_string(run.synthetic->payloadWords * 4) : "-",
-             run.options.budgetBytes == 0 ? "-" : mebibytes(run.options.budgetBytes)};
+             run.options.budgetBytes == 0 ? "-" : base::sizeText(run.options.budgetBytes)};
   if (!run.refused.empty()) {
     row.push_back("refused");
     row.resize(20, "-");
@@ -72,8 +69,8 @@ Row rowOf(const StressRun& run) {
   }
   for (const std::string& cell :
        {std::to_string(s.demand), std::to_string(s.stored), std::to_string(run.findings.lost),
-        std::to_string(run.findings.faults()), std::to_string(s.nodeBytes), mebibytes(s.predictedBytes),
-        mebibytes(s.bytes), std::to_string(s.windows), std::to_string(s.builds),
+        std::to_string(run.findings.faults()), std::to_string(s.nodeBytes), base::sizeText(s.predictedBytes),
+        base::sizeText(s.bytes), std::to_string(s.windows), std::to_string(s.builds),
         s.maxSpins == 0 ? "-" : fmt::format("{}/{}", s.p99Spins, s.maxSpins), std::to_string(s.longest),
         rate(s.stored, run.buildSeconds), rate(s.stored, run.resolveSeconds),
         rate(run.lookups, run.lookupSeconds)})
@@ -82,7 +79,7 @@ Row rowOf(const StressRun& run) {
 }
 
 constexpr const char* units =
-    "budget, predicted, peak: MiB; spins: of 99 % and of all; build, resolve: million nodes/s; lookups: "
+    "spins: of 99 % and of all; build, resolve: million nodes/s; lookups: "
     "million/s\n";
 
 std::string describe(const StressRun& run) {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/size_text.h"
 
 namespace sfumato::gl {
 
@@ -29,18 +30,16 @@ Object<deleteBuffer> createBuffer() {
 Buffer::Buffer(Device& device, std::string label, size_t bytes, Whole whole)
     : ledger_(&device.memory()), label_(std::move(label)), bytes_(std::max<size_t>(bytes, 16)) {
   if (whole == Whole::Bound && bytes_ > static_cast<size_t>(device.limits().storageBlockBytes))
-    fail(ExitCode::Memory,
-         "{}: needs {:.1f} MiB, this device allows {:.1f} MiB in one buffer: lower the resolution", label_,
-         static_cast<double>(bytes_) / 0x1p20,
-         static_cast<double>(device.limits().storageBlockBytes) / 0x1p20);
+    fail(ExitCode::Memory, "{}: needs {}, this device allows {} in one buffer: lower the resolution", label_,
+         base::sizeText(bytes_), base::sizeText(device.limits().storageBlockBytes));
   object_ = createBuffer();
   glBindBuffer(GL_COPY_WRITE_BUFFER, name());
   while (glGetError() != GL_NO_ERROR) {
   }
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes_), nullptr, GL_DYNAMIC_COPY);
   if (glGetError() == GL_OUT_OF_MEMORY)
-    fail(ExitCode::Memory, "{}: the device has no room for {:.1f} MiB: lower the resolution", label_,
-         static_cast<double>(bytes_) / 0x1p20);
+    fail(ExitCode::Memory, "{}: the device has no room for {}: lower the resolution", label_,
+         base::sizeText(bytes_));
   ledger_->add(label_, bytes_);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/size_text.h"
 
 namespace sfumato::gl {
 
@@ -29,6 +30,8 @@ struct FormatTraits {
 
 FormatTraits traits(Format format) {
   switch (format) {
+    case Format::R16F:
+      return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
     case Format::R32F:
       return {GL_R32F, GL_RED, GL_FLOAT, 4};
     case Format::R32UI:
@@ -110,8 +113,8 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
   else
     glTexStorage2D(target_, levels, format.internal, size_.x, size_.y);
   if (glGetError() == GL_OUT_OF_MEMORY)
-    fail(ExitCode::Memory, "{}: the device has no room for {:.1f} MiB: use a smaller one", label_,
-         static_cast<double>(bytes_) / 0x1p20);
+    fail(ExitCode::Memory, "{}: the device has no room for {}: use a smaller one", label_,
+         base::sizeText(bytes_));
   if (!texels.empty()) {
     if (target_ == GL_TEXTURE_3D)
       glTexSubImage3D(target_, 0, 0, 0, 0, size_.x, size_.y, size_.z, format.layout, format.type,
@@ -155,6 +158,18 @@ void Texture::bindImage(unsigned unit) const {
   glBindImageTexture(unit, name(), 0, GL_TRUE, 0, GL_READ_WRITE, traits(format_).internal);
 }
 
+void Texture::writeLayers(std::span<const std::byte> texels, int first, int count) {
+  const FormatTraits format = traits(format_);
+  base::check(target_ == GL_TEXTURE_3D &&
+                  texels.size() == bytes_ / static_cast<size_t>(size_.z) * static_cast<size_t>(count),
+              "layers get as many texels as they have");
+  bind(0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(target_, 0, 0, 0, first, size_.x, size_.y, count, format.layout, format.type,
+                  texels.data());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
 void Texture::copyFrom(const Buffer& texels) {
   base::check(target_ == GL_TEXTURE_2D, "a buffer fills a 2D texture");
   const FormatTraits format = traits(format_);
@@ -176,9 +191,8 @@ BufferTexture::BufferTexture(const Device& device, const Buffer& buffer, BufferF
   const size_t texelBytes = 4 * (static_cast<size_t>(format) + 1);
   const auto limit = static_cast<size_t>(device.limits().textureBufferTexels) * texelBytes;
   if (buffer.bytes() > limit)
-    fail(ExitCode::Memory,
-         "a buffer of {:.1f} MiB, this device reads {:.1f} MiB at once: lower --res or --shadow-res",
-         static_cast<double>(buffer.bytes()) / 0x1p20, static_cast<double>(limit) / 0x1p20);
+    fail(ExitCode::Memory, "a buffer of {}, this device reads {} at once: lower --res or --shadow-res",
+         base::sizeText(buffer.bytes()), base::sizeText(limit));
   GLuint name = 0;
   glGenTextures(1, &name);
   object_ = Object<deleteTexture>(name);

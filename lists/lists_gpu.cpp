@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/size_text.h"
 #include "gl/commands.h"
 #include "lists/driver_verdict.h"
 #include "lists/sorting_network.h"
@@ -25,10 +26,6 @@ namespace {
 constexpr size_t constantBytes =
     sizeof(ListCounters) + LIST_TALLIES * sizeof(uint32_t) + sizeof(ListWindow) + sizeof(ListStep);
 constexpr size_t smallestSort = 4;  // nodes; a run of 2 is sorted as one of 4
-
-double mebibytes(size_t bytes) {
-  return static_cast<double>(bytes) / 0x1p20;
-}
 
 size_t blocksOf(size_t count) {
   return (count + LIST_SCAN_BLOCK - 1) / LIST_SCAN_BLOCK;
@@ -126,6 +123,7 @@ size_t Lists::allocatedBytes() const {
 
 void Lists::reserveCells(gl::Device& device, size_t cells) {
   if (cells <= reservedCells_) return;
+  if (limited() && bytesFor(cells, capacity_) > options_.budgetBytes) releaseNodes();
   runs_ = gl::Buffer();
   sums_ = gl::Buffer();
   heads_ = gl::Buffer();
@@ -136,12 +134,18 @@ void Lists::reserveCells(gl::Device& device, size_t cells) {
   reservedCells_ = cells;
 }
 
+void Lists::releaseNodes() {
+  for (gl::Buffer* buffer : {&keys_, &payloads_, &links_, &linkedPayloads_, &sortedCells_})
+    *buffer = gl::Buffer();
+  capacity_ = 0;
+}
+
 void Lists::reserveNodes(gl::Device& device, size_t nodes) {
   if (nodes <= capacity_ && keys_.bytes() > 0) return;
   // A little more than now, so that the next window or frame fits as well.
-  capacity_ = std::min(nodes + nodes / 16, std::max(nodes, nodesAllowed(device, reservedCells_)));
-  for (gl::Buffer* buffer : {&keys_, &payloads_, &links_, &linkedPayloads_, &sortedCells_})
-    *buffer = gl::Buffer();  // the old pool goes before the new one comes
+  const size_t wanted = std::min(nodes + nodes / 16, std::max(nodes, nodesAllowed(device, reservedCells_)));
+  releaseNodes();  // the old pool goes before the new one comes
+  capacity_ = wanted;
   const auto pool = [&](size_t count, size_t bytes) {
     return gl::Buffer(device, label_, count * bytes, gl::Buffer::Whole::Never);
   };
@@ -318,10 +322,13 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
 
 void Lists::useStrategy(Strategy strategy) {
   strategy_ = strategy;
+  release();
+}
+
+void Lists::release() {
+  for (gl::Buffer* buffer : {&runs_, &sums_, &heads_}) *buffer = gl::Buffer();
   reservedCells_ = 0;
-  capacity_ = 0;
-  for (gl::Buffer* buffer : {&runs_, &sums_, &heads_, &keys_, &payloads_, &links_, &linkedPayloads_})
-    *buffer = gl::Buffer();
+  releaseNodes();
 }
 
 Lists::Stored Lists::scatter(gl::Device& device, const Window& window, const Draw& draw) {
@@ -495,18 +502,33 @@ ListStatistics Lists::buildWindows(gl::Device& device, const Draw& draw,
     mostCells = std::clamp<size_t>(options_.budgetBytes / (2 * perCell), 1, mostCells);
   }
   ListStatistics all;
+  size_t tried = mostCells;
   for (size_t first = 0; first < cells_;) {
     ListStatistics statistics;
-    const Window window{first, std::min(mostCells, cells_ - first)};
+    const Window window{first, std::min(tried, cells_ - first)};
     const size_t built = buildPrefix(device, window, draw, wholly, countsFirst(), statistics);
-    if (built == 0) failOverBudget(device, wholly ? window.cells : 1);
+    if (built == 0) {
+      if (wholly || reservedCells_ == 1) failOverBudget(device, window.cells);
+      // Memory for many cells may be what the first of them lacks.
+      release();
+      tried = 1;
+      continue;
+    }
     all += statistics;
     consume({first, built});
     first += built;
-    // What did not fit was counted in vain; a little more than what did costs little.
-    if (built < window.cells) mostCells = built + built / 4 + 1;
+    tried = std::min(mostCells, cellsToTry(device, built, statistics.stored));
   }
   return all;
+}
+
+// After a window of `built` cells with `stored` nodes: what fits if those that follow are as full, and a
+// quarter more. Cells that do not fit are counted in vain, too small a window issues the draws once more.
+size_t Lists::cellsToTry(const gl::Device& device, size_t built, size_t stored) const {
+  const double fitting = static_cast<double>(built) *
+                         static_cast<double>(nodesAllowed(device, reservedCells_)) /
+                         static_cast<double>(std::max<size_t>(stored, 1));
+  return static_cast<size_t>(std::min(1.25 * fitting, 1e15)) + 1;
 }
 
 // Whether a count pass comes before the nodes are stored: always for `count`; for linked lists when the size
@@ -523,14 +545,14 @@ bool Lists::limited() const {
 void Lists::failOverBudget(gl::Device& device, size_t cells) const {
   const size_t nodes = cells == 1 ? runs_.readValue<ListRun>().count : unmetNodes_;
   const std::string what = cells == 1 ? "one cell alone holds" : fmt::format("{} cells hold", cells);
-  const double needed = mebibytes(bytesFor(cells, nodes));
+  const std::string needed = base::sizeText(bytesFor(cells, nodes));
   if (nodes > mostNodes(device))
     base::fail(base::ExitCode::Memory,
-               "{}: {} {} nodes, which take {:.1f} MiB, more than this device allows: lower the resolution",
-               label_, what, nodes, needed);
+               "{}: {} {} nodes, which take {}, more than this device allows: lower the resolution", label_,
+               what, nodes, needed);
   base::fail(base::ExitCode::Memory,
-             "{}: {} {} nodes, which take {:.1f} MiB, the budget is {:.1f} MiB: raise --list-memory{}",
-             label_, what, nodes, needed, mebibytes(options_.budgetBytes),
+             "{}: {} {} nodes, which take {}, the budget is {}: raise --list-memory{}", label_, what, nodes,
+             needed, base::sizeText(options_.budgetBytes),
              options_.onOverflow == OnOverflow::Error ? " or use --on-overflow window" : "");
 }
 

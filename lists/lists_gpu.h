@@ -96,6 +96,8 @@ class Lists {
   size_t bytesFor(size_t cells, size_t nodes) const;
   size_t nodesAllowed(const gl::Device& device, size_t cells) const;  // by budget and device
   size_t allocatedBytes() const;
+  void release();
+  void releaseNodes();
   void reserveCells(gl::Device& device, size_t cells);
   void reserveNodes(gl::Device& device, size_t nodes);
 
@@ -109,6 +111,7 @@ class Lists {
   Counted countNodes(gl::Device& device, const Window& window, const Draw& draw);
   Counted scan(gl::Device& device, size_t cells, RunOffset offset);
   size_t cellsHolding(size_t cells, size_t nodes) const;  // of the first cells, by their scanned counts
+  size_t cellsToTry(const gl::Device& device, size_t built, size_t stored) const;
   bool countsFirst() const;
   bool limited() const;
   size_t buildPrefix(gl::Device& device, Window window, const Draw& draw, bool wholly, bool count,

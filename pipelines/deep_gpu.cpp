@@ -175,18 +175,6 @@ image::DeepView deepView(const glm::dmat4& viewFromWorld, const glm::dvec2& half
   return {asRows(cameraFromWorld), asRows(ndcFromCamera * cameraFromWorld)};
 }
 
-// Elements first to end - 1 of a buffer.
-template <typename T>
-std::vector<T> readRange(const gl::Buffer& buffer, size_t first, size_t end) {
-  std::vector<T> values(end - first);
-  buffer.read(std::as_writable_bytes(std::span(values)), first * sizeof(T));
-  return values;
-}
-
-uint32_t knotCount(const shared::ShadowTexel& texel) {
-  return texel.count & ~SHADOW_OWN_STEPS;
-}
-
 }  // namespace
 
 DeepLimits withinMemory(DeepLimits limits) {
@@ -206,39 +194,29 @@ image::DeepView deepView(const shared::ViewParams& view) {
 std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t light,
                                          const DeepLimits& limits) {
   const deepshadow::LightMap& map = maps.lights()[light];
-  base::check(map.firstFace >= 0, "the light of a deep shadow map casts a shadow");
-  const auto texels =
-      readRange<shared::ShadowTexel>(maps.texels(), map.firstTexel, map.firstTexel + map.texels);
-  size_t first = SIZE_MAX;
-  size_t end = 0;
-  size_t knots = 0;
-  for (const shared::ShadowTexel& texel : texels) {
-    if (knotCount(texel) == 0) continue;
-    first = std::min<size_t>(first, texel.first);
-    end = std::max<size_t>(end, texel.first + knotCount(texel));
-    knots += knotCount(texel);
-  }
-  first = std::min(first, end);
-  const size_t atMost =
-      (knots + texels.size()) * sizeof(image::DeepSample) + texels.size() * sizeof(std::vector<int>);
+  if (map.firstFace < 0)
+    base::fail(
+        base::ExitCode::Usage,
+        "deep shadow map of light {}: it reaches nothing that is seen and has no map: choose another light",
+        light);
+  constexpr size_t knotsInUnit = 2;  // at most
+  const size_t atMost = (knotsInUnit * map.units + map.texels) * sizeof(image::DeepSample) +
+                        map.texels * sizeof(std::vector<int>);
   if (atMost > limits.sampleBytes) failOverMemory(atMost, limits.sampleBytes);
-  const auto pool = readRange<shared::ShadowKnot>(maps.knots(), first, end);
+  const deepshadow::ReadMap read = maps.read(light);
 
   constexpr std::array sides = {"+x", "-x", "+y", "-y", "+z", "-z"};
   std::vector<image::DeepImage> images;
   size_t firstTexel = 0;
   for (int i = 0; i < map.faces; ++i) {
-    const deepshadow::FaceProjection& face = maps.faces()[static_cast<size_t>(map.firstFace + i)];
+    const deepshadow::FaceProjection& face = maps.faces(light)[static_cast<size_t>(i)];
     image::DeepImage image(face.side, face.side);
     if (map.faces > 1) image.name = sides[static_cast<size_t>(i)];
     image.view = deepView(glm::inverse(face.worldFromFace), face.halfExtent, face.orthographic);
     base::parallelFor(face.side, [&](long row) {
       for (int x = 0; x < face.side; ++x) {
-        const auto number = static_cast<size_t>(row * face.side + x);
-        const shared::ShadowTexel& texel = texels[firstTexel + number];
-        const auto own = knotCount(texel) == 0
-                             ? std::span<const shared::ShadowKnot>()
-                             : std::span(pool).subspan(texel.first - first, knotCount(texel));
+        const auto& texel = read.texels[firstTexel + static_cast<size_t>(row * face.side + x)];
+        const auto own = std::span(read.knots).subspan(texel.firstKnot, texel.knots);
         image.pixel(x, face.side - 1 - static_cast<int>(row)) = samplesOf(own, texel.opaqueDepth);
       }
     });

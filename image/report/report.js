@@ -101,13 +101,16 @@ document.querySelectorAll("figure canvas").forEach((canvas, i) => {
   (drawn[i].kind === "counts" ? drawCounts : drawPlot)(canvas, drawn[i]);
 });
 
+// Of sizes; a number without one counts as it is.
+const units = {KiB: 2 ** 10, MiB: 2 ** 20, GiB: 2 ** 30};
+
 // Columns that hold words stand to the left; a click on a column's head sorts by it.
 for (const table of document.querySelectorAll("table")) {
   const body = table.tBodies[0];
   const heads = [...table.tHead.rows[0].cells];
   const numberOf = (row, column) => {
-    const text = row.cells[column].textContent;
-    return text === "-" ? -Infinity : parseFloat(text);
+    const [number, unit] = row.cells[column].textContent.split(" ");
+    return number === "-" ? -Infinity : parseFloat(number) * (units[unit] ?? 1);
   };
   heads.forEach((head, column) => {
     const words = [...body.rows].some((row) => Number.isNaN(numberOf(row, column)));

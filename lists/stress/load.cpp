@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -104,6 +105,21 @@ std::vector<uint32_t> lengthsOf(const Load& load) {
   const auto nodes = static_cast<uint32_t>(load.nodes());
   for (uint32_t number = 0; number < nodes; ++number) ++lengths[nodeOf(load, number).cell];
   return lengths;
+}
+
+NumbersByBlock numbersByBlock(const Load& load) {
+  const auto nodes = static_cast<uint32_t>(load.nodes());
+  const auto blockOf = [&](uint32_t number) {
+    return nodeOf(load, number).cell / NumbersByBlock::blockCells;
+  };
+  NumbersByBlock result;
+  result.firsts.resize((load.cells() - 1) / NumbersByBlock::blockCells + 2);
+  for (uint32_t number = 0; number < nodes; ++number) ++result.firsts[blockOf(number) + 1];
+  std::partial_sum(result.firsts.begin(), result.firsts.end(), result.firsts.begin());
+  std::vector<size_t> next = result.firsts;
+  result.numbers.resize(nodes);
+  for (uint32_t number = 0; number < nodes; ++number) result.numbers[next[blockOf(number)]++] = number;
+  return result;
 }
 
 }  // namespace sfumato::lists::stress

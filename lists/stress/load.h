@@ -47,4 +47,13 @@ uint32_t payloadWord(const Load& load, uint32_t number, uint32_t word);
 // Nodes of each cell.
 std::vector<uint32_t> lengthsOf(const Load& load);
 
+// The numbers of a load's nodes by the block of cells that they are in, ascending within it: what a window
+// draws.
+struct NumbersByBlock {
+  static constexpr size_t blockCells = 64;
+  std::vector<uint32_t> numbers;
+  std::vector<size_t> firsts;  // place of each block's first number, and the end
+};
+NumbersByBlock numbersByBlock(const Load& load);
+
 }  // namespace sfumato::lists::stress

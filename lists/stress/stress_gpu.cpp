@@ -42,7 +42,9 @@ class Measurement {
         lists_(device, "stress", load.cells(), load.payloadWords * sizeof(uint32_t), options),
         after_(device),
         params_(device, "stress params", sizeof(shared::StressParams)),
-        verification_(load) {}
+        verification_(load) {
+    if (options.budgetBytes != 0 && options.onOverflow == OnOverflow::Window) indexNodes();
+  }
 
   Measured run() {
     Measured measured;
@@ -86,31 +88,55 @@ class Measurement {
     return milliseconds / 1000;
   }
 
-  void useParams(const Window& window, size_t nodes, bool cut) {
-    params_.writeValue(
-        shared::StressParams{.load = {load_.width, load_.height, static_cast<int>(load_.seed),
-                                      static_cast<int>(load_.distribution)},
-                             .window = {static_cast<int>(window.firstCell), static_cast<int>(window.cells),
-                                        static_cast<int>(nodes), cut}});
+  // For windows, as a scissor does for what is rasterised; layers that fill the picture need no index.
+  void indexNodes() {
+    const auto most = static_cast<size_t>(device_.limits().storageBlockBytes);
+    if (load_.distribution == Distribution::Uniform || load_.nodes() * sizeof(uint32_t) > most) return;
+    const NumbersByBlock index = numbersByBlock(load_);
+    firsts_ = index.firsts;
+    numbers_ = gl::Buffer(device_, "stress numbers", std::span<const uint32_t>(index.numbers));
+  }
+
+  // Nodes that a pass dispatches: not many more than those of its window.
+  struct Dispatched {
+    int which = STRESS_ALL;
+    size_t first = 0;  // place of the first number
+    size_t nodes = 0;
+  };
+  Dispatched nodesFor(const Window& window) const {
+    if (load_.distribution == Distribution::Uniform)
+      return {STRESS_LAYERS, 0, window.cells * static_cast<size_t>(load_.layers)};
+    if (firsts_.empty()) return {STRESS_ALL, 0, load_.nodes()};
+    const size_t block = NumbersByBlock::blockCells;
+    const size_t first = firsts_[window.firstCell / block];
+    return {STRESS_NUMBERS, first, firsts_[(window.firstCell + window.cells - 1) / block + 1] - first};
+  }
+
+  void useParams(const Window& window, const Dispatched& dispatched) {
+    params_.writeValue(shared::StressParams{
+        .load = {load_.width, load_.height, static_cast<int>(load_.seed),
+                 static_cast<int>(load_.distribution)},
+        .window = {static_cast<int>(window.firstCell), static_cast<int>(window.cells),
+                   static_cast<int>(dispatched.nodes), static_cast<int>(dispatched.first)}});
     params_.bindUniform(UNIFORM_PASS);
   }
 
   void draw(const Pass& pass) {
-    // Layers that fill the picture are cut to the window, as a scissor does; other nodes may be anywhere.
-    const bool cut = load_.distribution == Distribution::Uniform;
-    const size_t nodes = cut ? pass.window.cells * static_cast<size_t>(load_.layers) : load_.nodes();
+    const Dispatched dispatched = nodesFor(pass.window);
     gl::ShaderDefines defines = pass.defines;
     defines.emplace_back("LOAD_WORDS", std::to_string(load_.payloadWords));
+    defines.emplace_back("STRESS_NODES", std::to_string(dispatched.which));
     const gl::Program& program = device_.program({"lists/stress/insert.comp"}, defines);
-    useParams(pass.window, nodes, cut);
+    useParams(pass.window, dispatched);
+    if (dispatched.which == STRESS_NUMBERS) numbers_.bindStorage(STORAGE_STRESS_NUMBERS);
     const Profiler::Scope time(device_.profiler(), "stress draw");
-    gl::dispatchLinear(program, nodes);
+    gl::dispatchLinear(program, dispatched.nodes);
   }
 
   // The sum of each cell's lookups.
   std::vector<uint32_t> lookUp(const Window& window) {
     gl::Buffer sums(device_, "stress lookups", window.cells * sizeof(uint32_t));
-    useParams(window, 0, false);
+    useParams(window, {});
     const gl::Program& program =
         device_.program({"lists/stress/lookup.comp"}, {{"LOOKUPS", std::to_string(lookupsPerCell) + "u"}});
     {
@@ -164,6 +190,8 @@ class Measurement {
   Lists lists_;
   Guard after_;
   gl::Buffer params_;
+  gl::Buffer numbers_;  // NumbersByBlock, where windows need them
+  std::vector<size_t> firsts_;
   Verification verification_;
 };
 

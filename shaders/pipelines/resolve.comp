@@ -23,6 +23,12 @@ layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 layout(binding = TEXTURE_SURFACE_1) uniform pixelUsampler opaqueSurface1;
 
+#ifdef COUNT_LOOKUPS
+layout(std430, binding = STORAGE_LOOKUPS) buffer RayLookups {
+  uvec2 rayLookups[];
+};
+#endif
+
 const float FINISHED = 3e38;
 
 // Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
@@ -109,20 +115,19 @@ void main() {
       float to = stepEnd(media, depth, limit);
       float middle = 0.5 * (depth + to);
       float scattered[VOLUME_COUNT];
-      float sigmaT = 0.0;
+      Extinction sigmaT = Extinction(0.0);
       for (int v = 0; v < VOLUME_COUNT; ++v) {
         scattered[v] = extinctionOf(v, media, middle);
-        sigmaT += scattered[v];
+        sigmaT += inChannels(v, scattered[v]);
       }
-      if (sigmaT > 0.0) {
-        float tau = sigmaT * (to - depth) * ray.metresPerDepth;
-        float passed = exp(-tau);
-        // Integral of exp(-sigmaT s) over the step; its series where the difference would cancel.
-        float seenLength = tau > 1e-3 ? (1.0 - passed) / sigmaT : (tau / sigmaT) * (1.0 - 0.5 * tau);
-        for (int v = 0; v < VOLUME_COUNT; ++v) scattered[v] *= seenLength;
-        appendStep(steps, middle, to - depth, scattered, throughput);
-        throughput *= passed;
+      if (maxComponent(sigmaT) > 0.0) {
+        float stepLength = (to - depth) * ray.metresPerDepth;
+        Extinction tau = sigmaT * stepLength;
+        appendStep(steps, middle, to - depth, scattered, throughput * seenLength(tau, stepLength));
+        throughput *= exp(-tau);
         if (maxComponent(throughput) < params.march.y) limit = to;
+      } else {
+        to = emptyEnd(media, depth, to, limit);
       }
       depth = to;
     }
@@ -160,6 +165,9 @@ void main() {
     if (maxComponent(throughput) < params.march.y) walking = false;
   }
   if (walking) atomicAdd(counters.unfinished, 1u);
+#ifdef COUNT_LOOKUPS
+  rayLookups[number] = first ? lookups : rayLookups[number] + lookups;
+#endif
   rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
                           throughput.b, passed);
 }

@@ -310,6 +310,9 @@ TEST_F(CommandLineRender, KeepsItsMessagesOutOfItsFiles) {
 TEST_F(CommandLineRender, DrawsScenesThatLackSomething) {
   GltfBuilder noLights = glowingTriangle();
   addCamera(noLights, "front");
+  GltfBuilder noLightAtAll = glowingTriangle();
+  noLightAtAll.json["materials"][0].erase("emissiveFactor");
+  addCamera(noLightAtAll, "front");
   GltfBuilder noMeshes;
   addCamera(noMeshes, "front");
   noMeshes.light({{"type", "point"}});
@@ -323,6 +326,7 @@ TEST_F(CommandLineRender, DrawsScenesThatLackSomething) {
     bool black;
   };
   for (const Row& row : std::vector<Row>{{"no lights", noLights.text(), true, false},
+                                         {"no light at all", noLightAtAll.text(), true, false},
                                          {"no meshes", noMeshes.text(), false, true},
                                          {"nothing", nothing.text(), true, true},
                                          {"nothing at all", GltfBuilder().text(), true, true}}) {

@@ -54,6 +54,7 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--exposure", 1, {"31", "nan"}},
            {"--volume-scale", 1, {"-1", "nan"}},
            {"--volume-g", 1, {"1", "nan"}},
+           {"--volume-extinction", 3, {"-1", "1e7", "nan"}},
            {"--volume-albedo", 3, {"1.1", "nan"}},
            {"--look-from", 3, {"-1e300", "nan"}},
            {"--look-at", 3, {"1e400", "nan"}},

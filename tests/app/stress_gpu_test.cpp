@@ -107,9 +107,10 @@ TEST_F(Stress, SaysWhatABudgetWouldHaveToBe) {
     const Outcome outcome = run(
         {"--distribution", "one-cell", "--layers", "512", "--list-memory", "64K", "--lists", strategy, "-q"});
     expectError(outcome, 5, "16384 nodes");
-    EXPECT_NE(outcome.err.find("MiB"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(" KiB, the budget is 64.0 KiB"), std::string::npos) << outcome.err;
   }
-  expectError(run({"--cells", "128x128", "--list-memory", "64K", "--on-overflow", "error", "-q"}), 5, "MiB");
+  expectError(run({"--cells", "128x128", "--list-memory", "64K", "--on-overflow", "error", "-q"}), 5,
+              "the budget is 64.0 KiB");
 }
 
 TEST_F(Stress, ReportsWhatWasBuiltWhereABudgetRefusesSome) {

@@ -14,6 +14,7 @@
 #include "shaders/shared/deep.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
@@ -95,10 +96,10 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ShadowNode", {sizeof(shared::ShadowNode), {AT(ShadowNode, tauRg), AT(ShadowNode, tauBObject)}}},
       {"ShadowPassParams",
        {sizeof(shared::ShadowPassParams),
-        {AT(ShadowPassParams, march), AT(ShadowPassParams, cells), AT(ShadowPassParams, knots)}}},
+        {AT(ShadowPassParams, march), AT(ShadowPassParams, cells), AT(ShadowPassParams, units)}}},
       {"ShadowCounters",
        {sizeof(shared::ShadowCounters),
-        {AT(ShadowCounters, knots), AT(ShadowCounters, unplaced), AT(ShadowCounters, boundHit),
+        {AT(ShadowCounters, units), AT(ShadowCounters, unplaced), AT(ShadowCounters, boundHit),
          AT(ShadowCounters, hidden)}}},
       {"RayState",
        {sizeof(shared::RayState),
@@ -115,8 +116,11 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"StressParams", {sizeof(shared::StressParams), {AT(StressParams, load), AT(StressParams, window)}}},
       {"VolumeData",
        {sizeof(shared::VolumeData),
-        {AT(VolumeData, textureFromWorld), AT(VolumeData, boxMin), AT(VolumeData, boxMax),
-         AT(VolumeData, albedoScale), AT(VolumeData, phase)}}},
+        {AT(VolumeData, extinction), AT(VolumeData, albedo), AT(VolumeData, scattering), AT(VolumeData, phase)}}},
+      {"GridData",
+       {sizeof(shared::GridData),
+        {AT(GridData, gridFromWorld), AT(GridData, boxMin), AT(GridData, boxMax), AT(GridData, bricksScale),
+         AT(GridData, bricksFirst)}}},
   };
   return all;
 }
@@ -185,7 +189,7 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
   for (const std::string name :
-       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams"}) {
+       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams", "GridData"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;

@@ -45,6 +45,31 @@ TEST_F(StressGpu, FindsTheSameNodesInWindows) {
   }
 }
 
+// Windows shrink where lists are long, and grow again behind: few more than the budget goes into the whole.
+TEST_F(StressGpu, IsBuiltInFewWindowsWhereverItIsCrowded) {
+  for (const Distribution distribution : {Distribution::HotSpot, Distribution::Hair}) {
+    const Load load{.width = 128, .height = 128, .layers = 8, .distribution = distribution, .seed = 7};
+    for (const Strategy strategy : strategies) {
+      const size_t whole = measure(device(), load, {.strategy = strategy}).statistics.predictedBytes;
+      const Measured measured = measure(device(), load, {.strategy = strategy, .budgetBytes = whole / 8});
+      EXPECT_TRUE(measured.findings.good()) << measured.findings.fault;
+      EXPECT_GE(measured.statistics.windows, 8);
+      EXPECT_LE(measured.statistics.windows, 16) << nameOf(strategy) << ", " << nameOf(distribution);
+    }
+  }
+}
+
+// A list that leaves no room for those beside it gets a window of its own.
+TEST_F(StressGpu, BuildsOneLongListWithinABudgetThatItNearlyFills) {
+  const Load load{.width = 64, .height = 64, .layers = 32, .distribution = Distribution::OneCell};
+  for (const auto& [strategy, budget] : {std::pair(Strategy::Count, 30000u), {Strategy::Append, 68000u}}) {
+    const Measured measured = measure(device(), load, {.strategy = strategy, .budgetBytes = budget});
+    EXPECT_TRUE(measured.findings.good()) << measured.findings.fault;
+    EXPECT_EQ(measured.statistics.longest, 2048u);
+    EXPECT_LE(measured.statistics.bytes, budget);
+  }
+}
+
 TEST_F(StressGpu, LeavesTheErrorToTheCaller) {
   const Load load{.width = 64, .height = 64, .layers = 64, .distribution = Distribution::OneCell};
   try {

@@ -47,6 +47,21 @@ TEST(StressLoad, HasTheShapeOfItsName) {
   }
 }
 
+TEST(StressLoad, FindsTheNodesOfABlockOfCells) {
+  for (const Distribution distribution : all) {
+    const Load load{.width = 20, .height = 9, .layers = 6, .distribution = distribution};
+    const NumbersByBlock index = numbersByBlock(load);
+    ASSERT_EQ(index.firsts.size(), 4u);  // 180 cells are 3 blocks of 64
+    EXPECT_EQ(index.firsts.back(), load.nodes());
+    std::vector<uint32_t> numbers = index.numbers;
+    std::sort(numbers.begin(), numbers.end());
+    for (uint32_t i = 0; i < load.nodes(); ++i) ASSERT_EQ(numbers[i], i);
+    for (size_t block = 0; block < 3; ++block)
+      for (size_t i = index.firsts[block]; i < index.firsts[block + 1]; ++i)
+        ASSERT_EQ(nodeOf(load, index.numbers[i]).cell / 64, block);
+  }
+}
+
 TEST(StressLoad, StaysWithinItsCellsAndDepths) {
   for (const Distribution distribution : all)
     for (const auto& [width, height] : {std::pair(1, 1), {1, 7}, {9, 1}, {16384, 2}, {3, 16384}}) {

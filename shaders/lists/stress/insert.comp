@@ -1,4 +1,5 @@
-// Stores the nodes of a load, one an invocation: contention across lanes, workgroups and threads.
+// Stores the nodes of a load, one an invocation: contention across lanes, workgroups and threads. STRESS_NODES says
+// which of them: STRESS_* of shaders/shared/stress.h.
 #include "shaders/lists/stress/load.glsl"
 #include "shaders/shared/linear_id.glsl"
 #if LOAD_WORDS > 0
@@ -9,16 +10,28 @@ struct StressPayload {
 #endif
 #include "shaders/lists/insert.glsl"
 
+#if STRESS_NODES == STRESS_NUMBERS
+layout(std430, binding = STORAGE_STRESS_NUMBERS) readonly buffer Numbers {
+  uint numbers[];
+};
+#endif
+
+uint nodeNumber(uint index) {
+#if STRESS_NODES == STRESS_NUMBERS
+  return numbers[uint(stressParams.window.w) + index];
+#elif STRESS_NODES == STRESS_LAYERS
+  uint cells = uint(stressParams.window.y);
+  uint layer = index / cells;
+  return layer * uint(stressParams.load.x * stressParams.load.y) + uint(stressParams.window.x) + (index - layer * cells);
+#else
+  return index;
+#endif
+}
+
 void main() {
   uint index = linearId();
   if (index >= uint(stressParams.window.z)) return;
-  uint number = index;
-  if (stressParams.window.w != 0) {
-    // Layer after layer of the window's cells.
-    uint cells = uint(stressParams.window.y);
-    uint layer = index / cells;
-    number = layer * uint(stressParams.load.x * stressParams.load.y) + uint(stressParams.window.x) + (index - layer * cells);
-  }
+  uint number = nodeNumber(index);
   uint cell;
   float depth;
   loadNode(number, cell, depth);

@@ -3,6 +3,7 @@
 #include "shaders/shared/deep.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
