@@ -27,6 +27,7 @@ struct RenderOptions {
   glm::dvec3 volumeExtinction{1};
   glm::dvec3 volumeAlbedo{0.9};
   double volumeG = 0;
+  std::string volumeMemory;  // empty: what the device allows
   std::vector<std::string> outputs;
   int width = 1280;
   int height = 720;

@@ -226,8 +226,7 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
               scene.materials.size(), scene.lights.size());
   for (size_t i = 0; i < shot.media.size(); ++i) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
-    base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {}
-", scene.volumes[i].file, grid.name,
+    base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {}\n", scene.volumes[i].file, grid.name,
                 grid.size.x, grid.size.y, grid.size.z, base::sizeText(grid.bytes()));
   }
   const scene::Camera* camera = cameraOfScene(options, scene);

@@ -53,8 +53,7 @@ VolumesGpu::VolumesGpu(gl::Device& device, std::span<const Medium> media, const 
 }
 
 gl::ShaderDefines VolumesGpu::defines() const {
-  gl::ShaderDefines defines =
-      gl::joined({{"VOLUME_COUNT", std::to_string(count())}}, grids_.defines());
+  gl::ShaderDefines defines = gl::joined({{"VOLUME_COUNT", std::to_string(count())}}, grids_.defines());
   if (coloured_) defines.emplace_back("COLOURED_SMOKE", "1");
   return defines;
 }

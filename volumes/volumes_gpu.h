@@ -20,8 +20,8 @@ class VolumesGpu {
 
   size_t count() const { return count_; }
   bool empty() const { return count_ == 0; }
-  // VOLUME_COUNT, those of the grids, and COLOURED_SMOKE where the extinction of some medium has a colour; for
-  // programs that include shaders/volumes/media.glsl.
+  // VOLUME_COUNT, those of the grids, and COLOURED_SMOKE where the extinction of some medium has a colour;
+  // for programs that include shaders/volumes/media.glsl.
   gl::ShaderDefines defines() const;
   void bind() const;
 
