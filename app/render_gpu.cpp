@@ -27,9 +27,9 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& 
     const Clock::time_point start = Clock::now();
     frame = pipeline.render(shot.camera, options.width, options.height, quality,
                             {.aovs = shot.aovs,
-                             .countLookups = !options.statistics.empty(),
                              .deep = !options.deep.empty(),
                              .deepShadows = shot.deepShadows,
+                             .countLookups = !options.statistics.empty(),
                              .onTile = [&] { progress.advance(); }});
     seconds.push_back(secondsSince(start));
   }

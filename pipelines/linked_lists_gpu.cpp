@@ -39,6 +39,7 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
   if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
+  if (volumes.burning()) defines.emplace_back("FIRE", "1");
   if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
   return gl::joined(defines, volumes.defines());
 }
@@ -394,7 +395,8 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height,  options.countLookups, deepBytes};
+                          width,         height,  options.countLookups,
+                          deepBytes};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
