@@ -97,6 +97,9 @@ void addSmoke(CLI::App& command, RenderOptions& options) {
   add("--volume-g", options.volumeG, "Its Henyey-Greenstein g: -0.99 to 0.99, else 0")
       ->type_name("G")
       ->check(between(-0.99, 0.99));
+  add("--volume-memory", options.volumeMemory,
+      "Most that all smoke may take on the device: in bricks where a box is more; else what there is")
+      ->type_name("BYTES|256M|2G");
 }
 
 void addFire(CLI::App& command, RenderOptions& options) {

@@ -31,6 +31,7 @@ struct RenderOptions {
   std::optional<double> fireKelvin;
   double fireStrength = 1;
   int fireLights = 0;
+  std::string volumeMemory;  // empty: what the device allows
   std::vector<std::string> outputs;
   int width = 1280;
   int height = 720;

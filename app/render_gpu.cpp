@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "gl/device.h"
+#include "lists/strategy.h"
 #include "pipelines/linked_lists_gpu.h"
 
 namespace sfumato::app {
@@ -68,7 +69,10 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   if (!options.statistics.empty()) device.profiler().enable();
 
   RunTimes times;
-  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media);
+  volumes::GridOptions grids;
+  if (!options.volumeMemory.empty())
+    grids.budgetBytes = lists::bytesNamed(options.volumeMemory, "--volume-memory");
+  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media, grids);
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);

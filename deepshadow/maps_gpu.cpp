@@ -1,7 +1,5 @@
 #include "deepshadow/maps_gpu.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -355,9 +353,9 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
     const auto next = coarser(plan_, inputs.plan, inputs.budget, margin * std::max(excess, 1.0));
     if (!next)
       base::fail(base::ExitCode::Memory,
-                 "deep shadow maps: take {} times the {} MiB that they may: give them more with "
+                 "deep shadow maps: take {:.2g} times the {:.1f} MiB that they may: give them more with "
                  "--shadow-memory, or lower --shadow-res",
-                 fmt::format("{:.2g}", excess), budgetBytes_ >> 20);
+                 excess, static_cast<double>(budgetBytes_) / 0x1p20);
     plan_ = *next;
     lowered_ = true;
   }

@@ -14,6 +14,7 @@ namespace sfumato::lights {
 
 namespace {
 
+constexpr size_t manyLights = 256;    // from here on computing was the faster: docs/measured.md
 constexpr size_t proxyVertices = 60;  // of the icosahedron; the cone's pyramid uses 48 of them
 
 shared::LightData lightData(const Light& light, const ShadowFaces& shadow, int number) {
@@ -103,7 +104,9 @@ void LightLists::store(gl::Device& device, const LightListInputs& inputs, const 
   lights_.bindStorage(STORAGE_LIGHTS);
   inputs.view.bindUniform(UNIFORM_VIEW);
   passBlock_.bindUniform(UNIFORM_PASS);
-  if (inputs.build == LightListBuild::Raster)
+  const bool many = proxies() >= manyLights;
+  if (inputs.build.value_or(many ? LightListBuild::Compute : LightListBuild::Raster) ==
+      LightListBuild::Raster)
     rasterise(device, cells, defines);
   else
     compute(device, cells, defines);

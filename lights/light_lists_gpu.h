@@ -41,7 +41,7 @@ struct LightListInputs {
   // seen there can be lit; the first is greater where nothing can. None: everything can.
   const gl::Buffer* receivers = nullptr;
   lists::ListOptions lists{};
-  LightListBuild build = LightListBuild::Compute;
+  std::optional<LightListBuild> build;  // none: what was found the faster one for so many lights
 };
 
 class LightLists {

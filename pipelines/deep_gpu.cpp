@@ -182,8 +182,10 @@ image::DeepView deepView(const shared::ViewParams& view) {
 std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t light, size_t mostBytes) {
   const deepshadow::LightMap& map = maps.lights()[light];
   if (map.firstFace < 0)
-    base::fail(base::ExitCode::Usage,
-               "deep shadow map of light {}: it reaches nothing that is seen and has no map: choose another light", light);
+    base::fail(
+        base::ExitCode::Usage,
+        "deep shadow map of light {}: it reaches nothing that is seen and has no map: choose another light",
+        light);
   constexpr size_t knotsInUnit = 2;  // at most
   const size_t atMost = (knotsInUnit * map.units + map.texels) * sizeof(image::DeepSample) +
                         map.texels * sizeof(std::vector<int>);

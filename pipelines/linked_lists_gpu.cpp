@@ -44,10 +44,25 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
   return gl::joined(defines, volumes.defines());
 }
 
+// Pixels that are walked sample by sample: see shaders/shared/resolve.h.
+struct Split {
+  gl::Buffer groups;  // pixelGroups
+  size_t count = 0;   // of groups
+};
+
+// Of a window of the image.
+struct SplitInputs {
+  const gl::Buffer& view;
+  const GBuffer& gbuffer;
+  const lists::Lists& surfaces;
+  Tile window;
+};
+
 struct ResolveInputs {
   const gl::Buffer& view;
   const GBuffer& gbuffer;
   const lists::Lists& surfaces;
+  const Split& split;
   const lights::LightLists& lights;
   const deepshadow::Maps& shadows;
   const volumes::VolumesGpu& volumes;
@@ -58,13 +73,8 @@ struct ResolveInputs {
   size_t deepBytes;  // most that a deep image takes
 };
 
-// Pixels that are walked sample by sample: see shaders/shared/resolve.h.
-struct Split {
-  gl::Buffer groups;  // pixelGroups
-  size_t count = 0;   // of groups
-};
-
-void bindRayInputs(const ResolveInputs& inputs) {
+template <typename Inputs>
+void bindRayInputs(const Inputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
   inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
@@ -82,7 +92,7 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   return params;
 }
 
-Split splitPixels(gl::Device& device, const ResolveInputs& inputs) {
+Split splitPixels(gl::Device& device, const SplitInputs& inputs) {
   const size_t pixels = inputs.window.pixels();
   Split split;
   if (inputs.gbuffer.samplePositions.size() == 1) {
@@ -171,7 +181,7 @@ size_t mostPixels(const gl::Device& device) {
 
 // Lights the window's pixels into the frame; false when their rays do not fit one buffer.
 bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
-  const Split split = splitPixels(device, inputs);
+  const Split& split = inputs.split;
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
@@ -287,12 +297,16 @@ class TilePainter {
       return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
     }();
     if (!surfaces) return false;
+    const Split split = [&] {
+      const Profiler::Scope time(device_.profiler(), "split pixels");
+      return splitPixels(device_, {view_, gbuffer, surfaces->lists, window});
+    }();
     const auto lightLists = [&] {
       const Profiler::Scope time(device_.profiler(), "light lists");
       std::optional<gl::Buffer> receivers;
       if (hasListedLights_)
-        receivers = receiverDepths(device_, {view_, gbuffer, surfaces->lists, inputs_.volumes, inputs_.width,
-                                             inputs_.height, window});
+        receivers = receiverDepths(device_, {view_, gbuffer, surfaces->lists, split.groups, inputs_.volumes,
+                                             inputs_.width, inputs_.height, window});
       const lights::LightListInputs of{inputs_.lights,
                                        faces_,
                                        view_,
@@ -307,7 +321,7 @@ class TilePainter {
     if (!lightLists) return false;
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
-                 {view_, gbuffer, surfaces->lists, *lightLists, inputs_.shadows, inputs_.volumes,
+                 {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.volumes,
                   inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepBytes},
                  frame_))
       return false;
@@ -371,8 +385,9 @@ shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
-                                         std::span<const volumes::Medium> media)
-    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media) {
+                                         std::span<const volumes::Medium> media,
+                                         const volumes::GridOptions& gridOptions)
+    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media, gridOptions) {
   for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);

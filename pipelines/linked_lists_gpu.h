@@ -82,7 +82,8 @@ struct Frame {
 class LinkedListsPipeline {
  public:
   // Uploads what the scene holds and compiles the shaders: the start-up, apart from the frame.
-  LinkedListsPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media);
+  LinkedListsPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
+                      const volumes::GridOptions& gridOptions = {});
 
   // Draws one frame, tile by tile (pipelines/tiles.h): each pixel is the same bits whatever the device can
   // hold at a time. Bytes: 12 a pixel on the host; of a tile 40 a sample for the G-buffer, 32 a ray, 52 a

@@ -14,7 +14,8 @@ namespace sfumato::pipelines {
 struct ReceiverInputs {
   const gl::Buffer& view;  // shared::ViewParams of the window
   const GBuffer& gbuffer;
-  const lists::Lists& surfaces;  // of the window
+  const lists::Lists& surfaces;   // of the window
+  const gl::Buffer& pixelGroups;  // of the window: which pixels are walked sample by sample (resolve.h)
   const volumes::VolumesGpu& volumes;
   int width = 0;  // of the image, pixels
   int height = 0;

@@ -138,6 +138,18 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   return sum;
 }
 
+// The opaque depth that a texel's surface would have `offset` texels away from its centre, towards a point, if it went on
+// as it does from the texels on its far side: exact for a plane. Very near where they have another surface, or none.
+float opaqueDepthFrom(ShadowFace face, ivec2 texel, float depth, vec2 offset) {
+  ivec2 outwards = ivec2(sign(offset));
+  float besideX = uintBitsToFloat(texelFetch(shadowTexels, int(texelNumber(face, texel + ivec2(outwards.x, 0)))).z);
+  float besideY = uintBitsToFloat(texelFetch(shadowTexels, int(texelNumber(face, texel + ivec2(0, outwards.y)))).z);
+  if (face.texels.z == 0) return depth + dot(abs(offset), vec2(depth) - vec2(besideX, besideY));
+  // Seen in perspective, the inverse of a plane's depth is linear.
+  float inverse = 1.0 / depth + dot(abs(offset), 1.0 / vec2(depth) - 1.0 / vec2(besideX, besideY));
+  return inverse > 0.0 ? 1.0 / inverse : 3e38;
+}
+
 // Of a point on a surface of `object` (see PackedSurface) with the plane normal `normal`: the texels around it (`side`: see
 // Taps), each asked at the depth at which the ray through its centre meets that plane, so that a flat surface neither shadows itself
 // nor leaks, whatever the angle and the resolution. What lies before the plane by less than a texel or two is where a texel
@@ -166,18 +178,20 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     // The plane dot(n, x) = dot(n, p), met by x = (xy depth, -depth) or x = (xy, -depth). Seen edge-on it is met far
     // away or nowhere; little light falls on it then, and the point's own depth will do.
     float depth = perspective ? dot(n, p) / dot(n, vec3(xy, -1.0)) : (dot(n.xy, xy) - dot(n, p)) / n.z;
-    if (!(abs(depth - ownDepth) < 64.0 * texelWidth)) depth = ownDepth;
+    if (!(abs(depth - ownDepth) < 512.0 * texelWidth)) depth = ownDepth;
     float slack = texelWidth + 0.3 * abs(depth - ownDepth);
     depth -= rounding;
     ShadowTexel texel = shadowTexel(texelNumber(face, at));
     vec3 ownTau = takeOwnSteps(texel, depth, slack, object);
-    if (min(depth, ownDepth) - slack > texel.opaqueDepth) {
+    bool lit = depth <= texel.opaqueDepth;
+    bool blocked = min(depth, ownDepth) - slack > texel.opaqueDepth &&
+                   opaqueDepthFrom(face, at, texel.opaqueDepth, vec2(at) + 0.5 - place) < ownDepth - slack;
+    // At a grazing angle the plane is met far on the light's side of the point: with something else in between, the
+    // texel tells only where no other does.
+    if (lit && texel.opaqueDepth > depth + 4.0 * rounding && texel.opaqueDepth < ownDepth - texelWidth) share *= 1e-6;
+    if (blocked) {
       told += share;
     } else {
-      bool lit = depth <= texel.opaqueDepth;
-      // At a grazing angle the plane is met far on the light's side of the point: with something else in between, the
-      // texel tells only where no other does.
-      if (lit && texel.opaqueDepth > depth + 4.0 * rounding && texel.opaqueDepth < ownDepth - texelWidth) share *= 1e-6;
       vec3 through = share * runTransmittance(texel, min(depth, texel.opaqueDepth) - slack, ownTau);
       if (lit) {
         sum += through;

@@ -56,8 +56,8 @@ bool marchStep(SmokeRay ray, inout SmokeMarch march, out SmokeKnot knot) {
     Extinction nextTau = march.tau + sigma * ((to - march.depth) * ray.metresPerDepth);
     // tau may be off by -log(1 + x) to -log(1 - x), x = bound / T; these lie within, and need no logarithm.
     Extinction x = ray.bound * exp(min(nextTau, Extinction(64.0)));
-    Extinction tauMin = nextTau - 2.0 * x / (2.0 + x);
-    Extinction tauMax = nextTau + x + 0.5 * x * x + 3e38 * step(Extinction(1.0), x);
+    Extinction tauMin = nextTau - x / (1.0 + x);
+    Extinction tauMax = nextTau + x;
     float run = to - march.segment.depth;
     Extinction newMin = max(march.slopeMin, (tauMin - march.segment.tau) / run);
     Extinction newMax = min(march.slopeMax, (tauMax - march.segment.tau) / run);

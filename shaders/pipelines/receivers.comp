@@ -1,13 +1,15 @@
 // Between which depths something that is seen in a cell of the light lists can be lit: opaque and translucent surfaces, and
 // the boxes of media up to the farthest opaque surface. A cell an invocation.
-// SAMPLES is how many a pixel of the G-buffer has; SMOKE is defined when there are media.
+// SAMPLES is how many a pixel of the G-buffer has; SMOKE is defined when there are media; then VOLUME_COUNT says how many.
 #include "shaders/lights/light_lists.glsl"
 #include "shaders/lists/runs.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve.h"
-#include "shaders/shared/volumes.h"
+#ifdef SMOKE
+#include "shaders/volumes/grid.glsl"
+#endif
 
 layout(std140, binding = UNIFORM_VIEW) uniform View {
   ViewParams view;
@@ -18,11 +20,9 @@ layout(std140, binding = UNIFORM_PASS) uniform Pass {
 layout(std430, binding = STORAGE_RECEIVER_DEPTHS) writeonly buffer Receivers {
   vec2 receivers[];
 };
-#ifdef SMOKE
-layout(std430, binding = STORAGE_VOLUMES) readonly buffer Volumes {
-  VolumeData volumes[];
+layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
+  uint pixelGroups[];
 };
-#endif
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 
@@ -32,25 +32,23 @@ vec2 joined(vec2 a, vec2 b) {
   return vec2(min(a.x, b.x), max(a.y, b.y));
 }
 
-// Depths of a pixel's opaque surface as the rays through its centre and its samples meet it. `open`: one sees none.
-vec2 opaqueRange(ivec2 pixel, inout bool open) {
+// Of the opaque surface that a pixel's rays meet. `open`: one meets none.
+void addDepth(float depth, inout vec2 range, inout bool open) {
+  if (depth < NOTHING_SEEN) range = joined(range, vec2(depth));
+  else open = true;
+}
+
+void addSamples(ivec2 pixel, inout vec2 range, inout bool open) {
   ivec2 texel = pixel - view.tile.xy;
   vec2 centre = imagePlane(view, vec2(pixel) + 0.5);
-  vec2 range = NOTHING;
   for (int i = 0; i < SAMPLES; ++i) {
     float depth = texelFetch(opaqueDepth, texel, i).r;
     if (depth < NOTHING_SEEN) {
-      range = joined(range, vec2(depth));
-#if SAMPLES > 1
       vec3 normal = mat3(view.viewFromWorld) * unitFromOctahedral(unpackSnorm2x16(texelFetch(opaqueSurface0, texel, i).y));
-      vec2 there = imagePlane(view, vec2(pixel) + samplePosition(params, i));
-      range = joined(range, vec2(depthOnPlane(view, normal, centre, depth, there)));
-#endif
-    } else {
-      open = true;
+      depth = depthOnPlane(view, normal, centre, depth, imagePlane(view, vec2(pixel) + samplePosition(params, i)));
     }
+    addDepth(depth, range, open);
   }
-  return range;
 }
 
 // Of a pixel's translucent surfaces.
@@ -69,26 +67,26 @@ vec2 cutBelow(vec2 range, float low, float rateLow, float top) {
 }
 
 // Where a ray through any place of a rectangle of the image can be inside a medium's box: by intervals along each axis.
-vec2 mediumRange(VolumeData volume, vec2 planeLow, vec2 planeHigh) {
+vec2 mediumRange(GridData grid, vec2 planeLow, vec2 planeHigh) {
   bool orthographic = view.halfExtent.z != 0.0;
-  mat4 textureFromView = volume.textureFromWorld * view.worldFromView;
-  vec3 x0 = textureFromView[0].xyz * planeLow.x;
-  vec3 x1 = textureFromView[0].xyz * planeHigh.x;
-  vec3 y0 = textureFromView[1].xyz * planeLow.y;
-  vec3 y1 = textureFromView[1].xyz * planeHigh.y;
+  mat4 gridFromView = grid.gridFromWorld * view.worldFromView;
+  vec3 x0 = gridFromView[0].xyz * planeLow.x;
+  vec3 x1 = gridFromView[0].xyz * planeHigh.x;
+  vec3 y0 = gridFromView[1].xyz * planeLow.y;
+  vec3 y1 = gridFromView[1].xyz * planeHigh.y;
   vec3 asideLow = min(x0, x1) + min(y0, y1);
   vec3 asideHigh = max(x0, x1) + max(y0, y1);
-  vec3 forward = -textureFromView[2].xyz;
-  vec3 start = textureFromView[3].xyz;
+  vec3 forward = -gridFromView[2].xyz;
+  vec3 start = gridFromView[3].xyz;
   vec3 startLow = orthographic ? start + asideLow : start;
   vec3 startHigh = orthographic ? start + asideHigh : start;
   vec3 rateLow = orthographic ? forward : forward + asideLow;
   vec3 rateHigh = orthographic ? forward : forward + asideHigh;
-  vec3 slack = 1e-5 * (abs(start) + abs(volume.boxMin.xyz) + abs(volume.boxMax.xyz));
+  vec3 slack = 1e-5 * (abs(start) + abs(grid.boxMin.xyz) + abs(grid.boxMax.xyz));
   vec2 range = view.depthRange.xy;
   for (int axis = 0; axis < 3; ++axis) {
-    range = cutBelow(range, startLow[axis], rateLow[axis], volume.boxMax[axis] + slack[axis]);
-    range = cutBelow(range, -startHigh[axis], -rateHigh[axis], slack[axis] - volume.boxMin[axis]);
+    range = cutBelow(range, startLow[axis], rateLow[axis], grid.boxMax[axis] + slack[axis]);
+    range = cutBelow(range, -startHigh[axis], -rateHigh[axis], slack[axis] - grid.boxMin[axis]);
   }
   return range.x <= range.y ? vec2(range.x * 0.9999, range.y * 1.0001) : NOTHING;
 }
@@ -97,8 +95,8 @@ vec2 smokeRange(ivec2 low, ivec2 high, float farthest) {
   vec2 planeLow = imagePlane(view, vec2(low));
   vec2 planeHigh = imagePlane(view, vec2(high));
   vec2 range = NOTHING;
-  for (int v = 0; v < volumes.length(); ++v) {
-    vec2 ofMedium = mediumRange(volumes[v], planeLow, planeHigh);
+  for (int v = 0; v < VOLUME_COUNT; ++v) {
+    vec2 ofMedium = mediumRange(grids[v], planeLow, planeHigh);
     if (ofMedium.x <= farthest) range = joined(range, ofMedium);
   }
   return vec2(range.x, min(range.y, farthest));
@@ -117,11 +115,19 @@ void main() {
   bool open = false;
   vec2 opaque = NOTHING;
   vec2 listed = NOTHING;
-  for (int y = low.y; y < high.y; ++y) {
-    for (int x = low.x; x < high.x; ++x) {
-      opaque = joined(opaque, opaqueRange(ivec2(x, y), open));
-      listed = joined(listed, listedRange(ivec2(x, y)));
-    }
+  // Pixels that are split are put off: few cells have any, and some drivers skip loops only.
+  ivec2 size = high - low;
+  uint split = 0u;
+  for (int i = 0; i < size.x * size.y; ++i) {
+    ivec2 pixel = low + ivec2(i % size.x, i / size.x);
+    if (pixelGroups[listOfPixel(view, pixel)] != 0u) split |= 1u << i;
+    else addDepth(texelFetch(opaqueDepth, pixel - view.tile.xy, 0).r, opaque, open);
+    listed = joined(listed, listedRange(pixel));
+  }
+  while (split != 0u) {
+    int i = findLSB(split);
+    addSamples(low + ivec2(i % size.x, i / size.x), opaque, open);
+    split &= split - 1u;
   }
   vec2 range = joined(opaque, listed);
 #ifdef SMOKE

@@ -499,6 +499,23 @@ TEST_F(CommandLineRender, ReportsProgressOnStderr) {
   EXPECT_TRUE(bar.err.ends_with("s\r\n")) << bar.err;
 }
 
+TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
+  // One light: 12 bytes a texel at least.
+  render(
+      {"scene.gltf", "-o", "out.exr", "--stats", "out.json", "--shadow-memory", "100K", "--quality", "high"});
+  const Json figures = Json::parse(contentOf(path("out.json")));
+  const Json& maps = figures["shadow_maps"];
+  EXPECT_EQ(maps["budget_bytes"], 100 * 1024);
+  EXPECT_LE(maps["bytes"], 100 * 1024);
+  EXPECT_EQ(maps["lowered"], true);
+  EXPECT_LE(figures["lists"]["shadows"][0]["resolution"], 92);
+  expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "100K", "--shadow-res",
+                         "512", "--shadow-error", "0"})),
+              5, "deep shadow maps: take 46 times the 0.1 MiB that they may");
+  expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "much"})), 2,
+              "--shadow-memory");
+}
+
 TEST_F(CommandLineRender, WritesFigures) {
   render({"scene.gltf", "-o", "out.png", "--stats", "out.json", "--repeat", "2"});
   const Json figures = Json::parse(contentOf(path("out.json")));

@@ -62,6 +62,7 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--look-from", 3, {"-1e300", "nan"}},
            {"--look-at", 3, {"1e400", "nan"}},
            {"--shadow-res", 1, {"31", "64.5", "1e3", "nan"}},
+           {"--shadow-error", 1, {"-0.1", "0.51", "nan", "foo"}},
            {"--repeat", 1, {"0", "1001"}},
            {"--samples", 1, {"0", "65", "1.5", "nan"}},
        }) {

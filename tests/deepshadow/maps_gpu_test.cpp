@@ -93,7 +93,7 @@ TEST_F(MapsGpu, AChannelThatIsDarkLeavesTheOthersAlone) {
   known.scene.lights = {tests::directionalLight({0, -1, 0}, dvec3(1))};
   known.media = {tests::block({-1, 0, -1}, {1, 2, 1}, {4, 64, 4}, 500.0, dvec3(0.5), 0)};
   known.media[0].extinctionColour = {0.001, 0, 1};
-  const ReadMap map = build(known, 64, 1.0 / 512);
+  const LightFunction map = build(known, 64, 1.0 / 512);
   size_t through = 0;
   for (size_t number = 0; number < map.texels.size(); ++number) {
     const auto [start, rate] = ray(map, number);
