@@ -55,8 +55,12 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   warnOfProblems(device, frame.statistics);
-  return {std::move(frame.radiance), std::move(frame.aovs), device.names().renderer,
-          statisticsText(device, frame.statistics, times)};
+  Drawn drawn{std::move(frame.radiance), std::move(frame.aovs), device.names().renderer, {}};
+  if (options.statistics.empty()) return drawn;
+  const pipelines::ListPrediction fromBounds = pipelines::predictLists(
+      shot.scene, shot.media, shot.camera, options.width, options.height, shot.quality);
+  drawn.statistics = statisticsText(device, frame.statistics, fromBounds, times);
+  return drawn;
 }
 
 }  // namespace sfumato::app

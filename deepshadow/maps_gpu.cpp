@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
+#include "scene/light_faces.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/view.h"
@@ -106,7 +107,6 @@ class Builder {
     size_t firstTexelOfFace;
     lists::Window cells;
   };
-  static constexpr size_t windowTexels = 1 << 20;
 
   static gl::ShaderDefines writerDefines(const MapInputs& inputs) {
     gl::ShaderDefines defines;
@@ -256,17 +256,6 @@ class Builder {
 
 }  // namespace
 
-std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
-                                    std::span<const glm::dvec3> receivers,
-                                    std::span<const glm::dvec3> castingPoints) {
-  const int side = faceSide(resolution);
-  if (light.type == lights::LightType::Directional)
-    return {directionalFace(light.direction, side, receivers, castingPoints)};
-  if (light.type == lights::LightType::Spot && light.outerCone <= widestCone)
-    return {coneFace(light.position, light.direction, light.outerCone, side)};
-  return cubeFaces(light.position, side);
-}
-
 Maps::Maps(gl::Device& device, const MapInputs& inputs) {
   std::vector<std::vector<FaceProjection>> faces;
   std::vector<shared::ShadowFace> data;
@@ -275,7 +264,7 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) {
     LightMap& map = lightMaps_.emplace_back();
     faces.emplace_back();
     if (!light.castsShadow) continue;
-    faces.back() = facesOf(light, inputs.resolution, inputs.receivers, inputs.castingPoints);
+    faces.back() = scene::facesOf(light, inputs.resolution, inputs.receivers, inputs.castingPoints);
     map.firstFace = static_cast<int>(data.size());
     map.faces = static_cast<int>(faces.back().size());
     map.firstTexel = texels;

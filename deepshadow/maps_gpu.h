@@ -30,11 +30,6 @@ struct Casters {
   gl::ShaderDefines defines;     // of the programs that they are drawn with
 };
 
-// The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
-std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
-                                    std::span<const glm::dvec3> receivers,
-                                    std::span<const glm::dvec3> castingPoints);
-
 struct MapInputs {
   const std::vector<lights::Light>& lights;
   const Casters& casters;

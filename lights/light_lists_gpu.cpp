@@ -34,10 +34,6 @@ shared::LightData lightData(const Light& light, const ShadowFaces& shadow, int n
   return data;
 }
 
-size_t cellsAlong(int pixels) {
-  return static_cast<size_t>((pixels + LightLists::cellSide - 1) / LightLists::cellSide);
-}
-
 }  // namespace
 
 LightLists::Cells LightLists::cellsOf(const LightListInputs& inputs) {

@@ -12,6 +12,7 @@
 #include "gl/device.h"
 #include "gl/program.h"
 #include "lights/light.h"
+#include "lights/light_cells.h"
 #include "lists/lists_gpu.h"
 
 namespace sfumato::lights {
@@ -35,7 +36,7 @@ struct LightListInputs {
 
 class LightLists {
  public:
-  static constexpr int cellSide = 4;  // pixels; shaders/lights/light_lists.glsl has the same
+  static constexpr int cellSide = lights::cellSide;  // pixels
 
   // Uploads the lights and builds the lists. Costs 8 bytes a cell and 12 a node, more while some strategies
   // build (lists/lists_gpu.h). Throws Memory when they do not fit budget or device.

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "pipelines/geometry_gpu.h"
+#include "scene/light_faces.h"
 #include "scene/visible_hull.h"
 #include "shaders/shared/deepshadow.h"
 #include "tests/gl/test_device.h"
@@ -66,7 +67,7 @@ class MapsGpu : public tests::GpuTest {
     statistics_ = maps.lights().front();
     EXPECT_EQ(maps.cutMarches(), 0u);
     ReadMap map;
-    map.faces = facesOf(known.scene.lights.front(), resolution, hull, hull);
+    map.faces = scene::facesOf(known.scene.lights.front(), resolution, hull, hull);
     map.texels = maps.texels().readValues<shared::ShadowTexel>(statistics_.texels);
     map.knots =
         maps.knots().readValues<shared::ShadowKnot>(maps.knots().bytes() / sizeof(shared::ShadowKnot));
