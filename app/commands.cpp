@@ -28,6 +28,12 @@ class Help : public CLI::Formatter {
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, name, mode), "\n\n\n", "\n\n");
   }
+  // A flag that may take a number is added as --name{what it is alone}.
+  std::string make_option_name(const CLI::Option* option, bool isPositional) const override {
+    std::string name = CLI::Formatter::make_option_name(option, isPositional);
+    const size_t brace = name.find('{');
+    return brace == std::string::npos ? name : name.substr(0, brace) + "[=COUNT]";
+  }
   std::string make_option_opts(const CLI::Option* option) const override {
     return option->get_type_size() == 0 || option->get_positional() ? "" : " " + option->get_type_name();
   }
@@ -79,6 +85,11 @@ void addSmoke(CLI::App& command, RenderOptions& options) {
       "Its extinction per density, 1/m: 0 to 1e9, else 1, or alone what suits")
       ->type_name("SCALE")
       ->check(between(0.0, 1e9));
+  addVector(command, "--volume-extinction", "Its extinction's colour, times SCALE: each 0 to 1e6, else 1",
+            options.volumeExtinction)
+      ->type_name("R G B")
+      ->check(between(0.0, 1e6))
+      ->group("Smoke");
   addVector(command, "--volume-albedo", "Its scattering albedo: each 0 to 1, else 0.9", options.volumeAlbedo)
       ->type_name("R G B")
       ->check(between(0.0, 1.0))
@@ -86,6 +97,9 @@ void addSmoke(CLI::App& command, RenderOptions& options) {
   add("--volume-g", options.volumeG, "Its Henyey-Greenstein g: -0.99 to 0.99, else 0")
       ->type_name("G")
       ->check(between(-0.99, 0.99));
+  add("--volume-memory", options.volumeMemory,
+      "Most that all smoke may take on the device: in bricks where a box is more; else what there is")
+      ->type_name("BYTES|256M|2G");
 }
 
 void addView(CLI::App& command, RenderOptions& options) {
@@ -135,9 +149,31 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->type_name("VOXELS")
       ->check(between(0.01, 100.0));
   add("--shadow-res", options.shadowResolution,
-      "Texels a side of a deep shadow map: 32 to 16384, else by --quality")
+      "Texels a side of every deep shadow map: 32 to 16384, else by --quality and what a light covers")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
+  add("--shadow-error", options.shadowError,
+      "Their compression errs in transmittance at most so: 0 (keep all) to 0.5, else by --quality")
+      ->type_name("ERROR")
+      ->check(between(0.0, 0.5));
+  add("--shadow-filter", options.shadowFilter,
+      "Look shadows up so: nearest, bilinear, soft; else by --quality")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::shadowFilterNames()));
+  add("--shadow-memory", options.shadowMemory,
+      "Most that they take together: coarser ones, else 2G or what the device reads")
+      ->type_name("BYTES|64K|256M|2G");
+}
+
+void addScattering(CLI::App& command, RenderOptions& options) {
+  // Alone it is a flag, so that what stands behind it is not taken for a number of octaves.
+  command
+      .add_flag(fmt::format("--multiscatter{{{}}}", pipelines::usualScatteringOctaves),
+                options.scatteringOctaves,
+                fmt::format("Let smoke scatter again, in octaves: 0 to {}, else 0, or alone {}",
+                            pipelines::maxScatteringOctaves, pipelines::usualScatteringOctaves))
+      ->check(wholeBetween(0, pipelines::maxScatteringOctaves))
+      ->group("Quality");
 }
 
 void addLists(CLI::App& command, RenderOptions& options) {
@@ -186,6 +222,14 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(oneOf(pipelines::aovNames()));
+  add("--deep", options.deep, "Write what lies along each pixel's depth, for deep compositing")
+      ->type_name("FILE.exr")
+      ->check(fileName());
+  add("--deep-shadow", options.deepShadows,
+      "Write a light's deep shadow map so; LIGHT is its name or number; may be given again")
+      ->type_name("LIGHT FILE.exr")
+      ->check(fileName())
+      ->allow_extra_args(false);
   add("--stats", options.statistics, "Write times, bytes and list figures as JSON")
       ->type_name("FILE.json")
       ->check(fileName());
@@ -351,6 +395,7 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addSmoke(command, options);
   addView(command, options);
   addQuality(command, options);
+  addScattering(command, options);
   addLists(command, options);
   addReference(command, options);
   addOutput(command, options);

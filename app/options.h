@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sfumato::app {
@@ -23,8 +24,10 @@ struct RenderOptions {
   std::vector<std::string> volumes;  // .vdb
   std::string grid;                  // of the volumes given by flags
   std::optional<double> volumeScale;
+  glm::dvec3 volumeExtinction{1};
   glm::dvec3 volumeAlbedo{0.9};
   double volumeG = 0;
+  std::string volumeMemory;  // empty: what the device allows
   std::vector<std::string> outputs;
   int width = 1280;
   int height = 720;
@@ -36,15 +39,21 @@ struct RenderOptions {
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
-  std::string lists;       // a strategy; empty: the device's
-  std::string listMemory;  // empty: what the device allows
+  std::optional<double> shadowError;
+  std::string shadowFilter;  // empty: by quality
+  std::string shadowMemory;  // empty: what the device reads
+  int scatteringOctaves = 0;  // of multiple scattering
+  std::string lists;         // a strategy; empty: the device's
+  std::string listMemory;    // empty: what the device allows
   std::string onOverflow = "window";
   bool reference = false;  // drawn by the CPU reference
   int samples = 1;         // a side of the pixel, of the reference
   double exposureStops = 0;
-  std::vector<std::string> aovs;  // see pipelines/aovs.h
-  std::string statistics;         // path, empty: none
-  int repeat = 1;                 // frames; the last one is written
+  std::vector<std::string> aovs;                                 // see pipelines/aovs.h
+  std::string deep;                                              // .exr, empty: none
+  std::vector<std::pair<std::string, std::string>> deepShadows;  // a light's name or number, and an .exr
+  std::string statistics;                                        // path, empty: none
+  int repeat = 1;                                                // frames; the last one is written
   bool dryRun = false;
 };
 

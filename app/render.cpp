@@ -1,11 +1,13 @@
 // `sfumato render`: files to a scene, the scene to a frame, the frame to files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
 
 #include "app/aov_files.h"
+#include "app/deep_files.h"
 #include "app/options.h"
 #include "app/shot.h"
 #include "base/error.h"
@@ -44,6 +46,7 @@ void addVolumes(const RenderOptions& options, scene::Scene& scene) {
     volume.file = file;
     volume.gridName = options.grid;
     volume.scale = options.volumeScale.value_or(1);
+    volume.extinctionColour = options.volumeExtinction;
     volume.albedo = options.volumeAlbedo;
     volume.g = options.volumeG;
     scene.volumes.push_back(volume);
@@ -58,6 +61,24 @@ void addDefaults(const RenderOptions& options, scene::Scene& scene, std::vector<
                media[i].scale, scene::fittingOpticalDepth);
   }
   scene::addDefaultSet(scene, scene::boundsOf(media), yfovOf(options), aspectOf(options));
+}
+
+bool glows(const scene::Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
+    return material.unlit || material.emissive != glm::vec3(0.f);
+  });
+}
+
+// Sets come without lights as often as with them.
+void lightTheDark(const RenderOptions& options, scene::Scene& scene) {
+  if (!scene.lights.empty()) return;
+  if (glows(scene)) {
+    base::warn("{}: no lights: only what glows is seen", options.scene);
+  } else {
+    scene::addDefaultLights(scene);
+    base::warn("{}: no lights: two directional ones are added: put lights into the file to choose them",
+               options.scene);
+  }
 }
 
 // The camera that --camera names, the first one, or nothing.
@@ -97,7 +118,15 @@ scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& sce
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  if (options.shadowResolution) quality.shadowResolution = *options.shadowResolution;
+  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.exactShadowResolution = options.shadowResolution.has_value();
+  quality.shadowError = options.shadowError.value_or(quality.shadowError);
+  quality.exactShadowError = options.shadowError.has_value();
+  if (!options.shadowFilter.empty())
+    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
+  if (!options.shadowMemory.empty())
+    quality.shadowMemory = lists::bytesNamed(options.shadowMemory, "--shadow-memory");
+  quality.scatteringOctaves = options.scatteringOctaves;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
@@ -125,6 +154,7 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                             {"sfumato:size", fmt::format("{}x{}", options.width, options.height)},
                             {"sfumato:quality", options.quality},
                             {"sfumato:step_voxels", fmt::format("{}", shot.quality.stepVoxels)},
+                            {"sfumato:scattering_octaves", fmt::format("{}", options.scatteringOctaves)},
                             {"sfumato:exposure_stops", fmt::format("{}", options.exposureStops)},
                             {"sfumato:camera_position", numbers(camera.worldFromView[3])},
                             {"sfumato:camera_direction", numbers(-glm::dvec3(camera.worldFromView[2]))},
@@ -139,13 +169,17 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
     result.emplace_back("sfumato:samples_at_edges", fmt::format("{}", shot.quality.samples));
     result.emplace_back("sfumato:shadow_resolution", fmt::format("{}", shot.quality.shadowResolution));
     result.emplace_back("sfumato:shadow_error", fmt::format("{}", shot.quality.shadowError));
+    result.emplace_back("sfumato:shadow_filter", fmt::format("{} on surfaces, {} in smoke",
+                                                             pipelines::nameOf(shot.quality.surfaceShadows),
+                                                             pipelines::nameOf(shot.quality.smokeShadows)));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
   }
   for (size_t i = 0; i < shot.media.size(); ++i)
-    result.emplace_back(fmt::format("sfumato:volume{}", i),
-                        fmt::format("{}: grid \"{}\", scale {}, albedo {}, g {}", shot.scene.volumes[i].file,
-                                    shot.media[i].grid.name, shot.media[i].scale,
-                                    numbers(shot.media[i].albedo), shot.media[i].g));
+    result.emplace_back(
+        fmt::format("sfumato:volume{}", i),
+        fmt::format("{}: grid \"{}\", scale {}, extinction {}, albedo {}, g {}", shot.scene.volumes[i].file,
+                    shot.media[i].grid.name, shot.media[i].scale, numbers(shot.media[i].extinctionColour),
+                    numbers(shot.media[i].albedo), shot.media[i].g));
   return result;
 }
 
@@ -157,7 +191,8 @@ std::filesystem::path placeOf(const std::string& file) {
 
 // Every output is checked before the long work: it can be written, and is no other file of this run.
 void checkOutputs(const RenderOptions& options) {
-  if (options.outputs.empty() && !options.dryRun)
+  const std::vector<std::string> deep = deepFiles(options);
+  if (options.outputs.empty() && deep.empty() && !options.dryRun)
     fail(ExitCode::Usage, "render: no output: name an image with -o, e.g. -o {}.png",
          std::filesystem::path(options.scene.empty() ? options.volumes.front() : options.scene)
              .stem()
@@ -165,6 +200,7 @@ void checkOutputs(const RenderOptions& options) {
   std::vector<std::string> outputs = options.outputs;
   for (const std::string& output : outputs) image::checkImageName(output);
   for (const std::string& file : heatMapFiles(options)) outputs.push_back(file);
+  outputs.insert(outputs.end(), deep.begin(), deep.end());
   if (!options.statistics.empty()) outputs.push_back(options.statistics);
   std::set<std::filesystem::path> places = {placeOf(options.scene)};
   for (const std::string& volume : options.volumes) places.insert(placeOf(volume));
@@ -205,7 +241,7 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
   for (size_t i = 0; i < shot.media.size(); ++i) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
     base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {}\n", scene.volumes[i].file, grid.name,
-                grid.size.x, grid.size.y, grid.size.z, base::sizeText(grid.values.size() * sizeof(float)));
+                grid.size.x, grid.size.y, grid.size.z, base::sizeText(grid.bytes()));
   }
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
@@ -214,12 +250,14 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
   if (!options.reference) printLists(options, shot);
   for (const std::string& output : options.outputs) base::print("output   {}\n", output);
   for (const std::string& file : heatMapFiles(options)) base::print("output   {}\n", file);
+  for (const std::string& file : deepFiles(options)) base::print("output   {}\n", file);
   if (!options.statistics.empty()) base::print("output   {}\n", options.statistics);
 }
 
 // Radiance first; then it is exposed for the pictures in its own place, as images may be large.
 void writeOutputs(const RenderOptions& options, Drawn drawn, const image::Metadata& settings) {
   writeHeatMaps(options, drawn.aovs, settings);
+  writeDeepFiles(options, drawn, settings);
   std::vector<image::Layer> layers;
   for (auto& [aov, image] : drawn.aovs) layers.push_back(layerOf(aov, std::move(image)));
   for (const std::string& output : options.outputs) {
@@ -242,14 +280,16 @@ Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_
   std::vector<double> seconds;
   for (int i = 0; i < options.repeat; ++i) {
     const Clock::time_point frameStart = Clock::now();
-    pipelines::ReferenceFrame frame = pipelines::traceReference(shot.scene, shot.camera, shot.media,
-                                                                {.width = options.width,
-                                                                 .height = options.height,
-                                                                 .samples = options.samples,
-                                                                 .stepVoxels = shot.quality.stepVoxels,
-                                                                 .shadowStepVoxels = shot.quality.stepVoxels,
-                                                                 .showProgress = true,
-                                                                 .aovs = shot.aovs});
+    pipelines::ReferenceFrame frame =
+        pipelines::traceReference(shot.scene, shot.camera, shot.media,
+                                  {.width = options.width,
+                                   .height = options.height,
+                                   .samples = options.samples,
+                                   .stepVoxels = shot.quality.stepVoxels,
+                                   .shadowStepVoxels = shot.quality.stepVoxels,
+                                   .scatteringOctaves = options.scatteringOctaves,
+                                   .showProgress = true,
+                                   .aovs = shot.aovs});
     drawn.radiance = std::move(frame.radiance);
     drawn.aovs = std::move(frame.aovs);
     seconds.push_back(secondsSince(frameStart));
@@ -275,11 +315,11 @@ Shot makeShot(const RenderOptions& options) {
   addVolumes(options, shot.scene);
   shot.media = scene::readMedia(shot.scene);
   if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
-  if (shot.scene.lights.empty())
-    base::warn("{}: no lights: the picture will be black but for what glows", options.scene);
+  lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
   shot.aovs = wantedAovs(options);
+  shot.deepShadows = deepShadowLights(options, shot.scene);
   return shot;
 }
 

@@ -1,9 +1,15 @@
 // The frame of `sfumato render` on the GPU.
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+
 #include "app/shot.h"
 #include "app/statistics_gpu.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "gl/device.h"
+#include "lists/strategy.h"
 #include "pipelines/linked_lists_gpu.h"
 
 namespace sfumato::app {
@@ -21,7 +27,11 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& 
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
     frame = pipeline.render(shot.camera, options.width, options.height, quality,
-                            {.aovs = shot.aovs, .onTile = [&] { progress.advance(); }});
+                            {.aovs = shot.aovs,
+                             .deep = !options.deep.empty(),
+                             .deepShadows = shot.deepShadows,
+                             .countLookups = !options.statistics.empty(),
+                             .onTile = [&] { progress.advance(); }});
     seconds.push_back(secondsSince(start));
   }
   return frame;
@@ -36,6 +46,19 @@ void warnOfProblems(gl::Device& device, const pipelines::FrameStatistics& statis
         statistics.cutWalks);
 }
 
+void noteShadowMaps(const pipelines::FrameStatistics& statistics) {
+  const pipelines::ShadowFigures& maps = statistics.shadowMaps;
+  std::map<int, int, std::greater<>> lights;  // by resolution
+  for (const deepshadow::LightMap& map : statistics.shadows)
+    if (map.faces > 0) ++lights[map.resolution];
+  std::string resolutions;
+  for (const auto& [resolution, count] : lights)
+    resolutions += fmt::format("{}{} of {}", resolutions.empty() ? "" : ", ", count, resolution);
+  base::note("shadow maps: {} texels a side, error bound {:.5f}: {:.1f} MiB of {:.0f}{}",
+             resolutions.empty() ? "none" : resolutions, maps.error, static_cast<double>(maps.bytes) / 0x1p20,
+             static_cast<double>(maps.budgetBytes) / 0x1p20, maps.lowered ? ": coarser, to fit" : "");
+}
+
 }  // namespace
 
 Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_point start) {
@@ -46,7 +69,10 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   if (!options.statistics.empty()) device.profiler().enable();
 
   RunTimes times;
-  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media);
+  volumes::GridOptions grids;
+  if (!options.volumeMemory.empty())
+    grids.budgetBytes = lists::bytesNamed(options.volumeMemory, "--volume-memory");
+  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media, grids);
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);
@@ -54,8 +80,10 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   pipelines::Frame frame = drawFrames(device, pipeline, shot, options, times.frameSeconds);
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
+  noteShadowMaps(frame.statistics);
   warnOfProblems(device, frame.statistics);
-  Drawn drawn{std::move(frame.radiance), std::move(frame.aovs), device.names().renderer, {}};
+  Drawn drawn{std::move(frame.radiance),    std::move(frame.aovs),   std::move(frame.deep),
+              std::move(frame.deepShadows), device.names().renderer, {}};
   if (options.statistics.empty()) return drawn;
   const pipelines::ListPrediction fromBounds = pipelines::predictLists(
       shot.scene, shot.media, shot.camera, options.width, options.height, shot.quality);

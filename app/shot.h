@@ -2,10 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/options.h"
+#include "image/deep_image.h"
 #include "image/image.h"
 #include "pipelines/aovs.h"
 #include "pipelines/quality.h"
@@ -26,7 +28,8 @@ struct Shot {
   std::vector<volumes::Medium> media;
   scene::Camera camera;
   pipelines::Quality quality;
-  pipelines::AovSet aovs;  // that are wanted
+  pipelines::AovSet aovs;           // that are wanted
+  std::vector<size_t> deepShadows;  // lights whose maps are
 };
 
 // Reads everything that is drawn.
@@ -37,8 +40,10 @@ scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Med
 struct Drawn {
   image::Image radiance;
   pipelines::AovImages aovs;
-  std::string device;      // who drew it, for the metadata
-  std::string statistics;  // JSON
+  std::optional<image::DeepImage> deep;
+  std::vector<std::vector<image::DeepImage>> deepShadows;  // a light each, of an image for each face
+  std::string device;                                      // who drew it, for the metadata
+  std::string statistics;                                  // JSON
 };
 
 // Opens the device and draws the frame --repeat times, the last one counts; `start` is when the program

@@ -1,5 +1,7 @@
 #include "app/statistics_gpu.h"
 
+#include <algorithm>
+
 #include "base/json_text.h"
 
 namespace sfumato::app {
@@ -29,6 +31,15 @@ nlohmann::json toJson(const lists::ListStatistics& lists, const pipelines::Predi
           {"bytes", lists.bytes}};
 }
 
+nlohmann::json toJson(const pipelines::Lookups& lookups) {
+  const auto perPixel = [&](size_t all, size_t most) {
+    const auto pixels = static_cast<double>(std::max<size_t>(lookups.pixels, 1));
+    return nlohmann::json{{"mean", static_cast<double>(all) / pixels}, {"max", most}};
+  };
+  return {{"lights_per_pixel", perPixel(lookups.lights, lookups.mostLights)},
+          {"shadows_per_pixel", perPixel(lookups.shadows, lookups.mostShadows)}};
+}
+
 nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {
   nlohmann::json result = nlohmann::json::array();
   for (const gl::PassTime& pass : passes)
@@ -50,7 +61,7 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
       {"seconds", times.frameSeconds},          {"passes", toJson(times.framePasses)},
       {"triangles", statistics.triangles},      {"tiles", statistics.tiles},
       {"split_pixels", statistics.splitPixels}, {"resolve_dispatches", statistics.resolveDispatches},
-      {"cut_walks", statistics.cutWalks}};
+      {"cut_walks", statistics.cutWalks},       {"lookups", toJson(statistics.lookups)}};
   result["lists"] = {{"surfaces", toJson(statistics.surfaces, fromBounds.surfaces)},
                      {"lights", toJson(statistics.lights, fromBounds.lights)}};
   result["lists"]["shadows"] = nlohmann::json::array();
@@ -59,9 +70,16 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
     nlohmann::json light = toJson(map.lists, fromBounds.shadows[i]);
     light["faces"] = map.faces;
     light["texels"] = map.texels;
-    light["knots"] = map.knots;
+    light["resolution"] = map.resolution;
+    light["knot_bytes"] = map.knotBytes;
     result["lists"]["shadows"].push_back(light);
   }
+  const pipelines::ShadowFigures& maps = statistics.shadowMaps;
+  result["shadow_maps"] = {{"error", maps.error},
+                           {"lowered", maps.lowered},
+                           {"bytes", maps.bytes},
+                           {"predicted_bytes", maps.predictedBytes},
+                           {"budget_bytes", maps.budgetBytes}};
   result["memory"] = {{"peak_bytes", device.memory().peakBytes()},
                       {"peak_bytes_by_label", device.memory().peakBytesByLabel()}};
   return base::jsonText(result);

@@ -1,6 +1,7 @@
 #include "deepshadow/maps_gpu.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "base/error.h"
@@ -16,8 +17,11 @@ namespace sfumato::deepshadow {
 namespace {
 
 // Parts of a buffer that are bound alone start at multiples of 256 bytes.
-constexpr size_t knotAlignment = 256 / sizeof(shared::ShadowKnot);
+constexpr size_t unitBytes = sizeof(shared::ShadowKnot);  // of the pool of knots
+constexpr size_t unitAlignment = 256 / unitBytes;
 constexpr size_t texelAlignment = 64;
+constexpr auto texelsLabel = "deep shadow texels";
+constexpr auto poolLabel = "deep shadow knots";
 
 size_t alignedUp(size_t count, size_t alignment) {
   return (count + alignment - 1) / alignment * alignment;
@@ -66,11 +70,15 @@ glm::ivec4 rowsOf(const lists::Window& window, int side) {
 // Everything that building the maps needs and that goes with it.
 class Builder {
  public:
-  Builder(gl::Device& device, const MapInputs& inputs, gl::Buffer& texels, gl::Buffer& knots)
+  // Writes `texels` and the pool of `knots`, which grows as long as it takes `mostUnits` at the most.
+  Builder(gl::Device& device, const MapInputs& inputs, double error, gl::Buffer& texels, gl::Buffer& knots,
+          size_t mostUnits)
       : device_(device),
         inputs_(inputs),
+        error_(error),
         texels_(texels),
         knots_(knots),
+        mostUnits_(mostUnits),
         opaque_(device.program({"scene/surface.vert", "deepshadow/opaque.frag"}, inputs.casters.defines)),
         writer_(device.program({"deepshadow/knots.comp"}, writerDefines(inputs))),
         viewBlock_(device, "shadow view", sizeof(shared::ViewParams)),
@@ -78,24 +86,28 @@ class Builder {
         counters_(device, "shadow counters", sizeof(shared::ShadowCounters)) {}
 
   // Builds one light's map into its texels. Faces are built in windows, so that the lists take the same
-  // memory at any resolution.
-  void build(const std::vector<FaceProjection>& faces, LightMap& map) {
+  // memory at any resolution. False when the pool has no room for it.
+  bool build(const std::vector<FaceProjection>& faces, LightMap& map) {
+    map.firstUnit = firstUnit_;
     size_t firstTexel = map.firstTexel;
+    bool fits = true;
     for (const FaceProjection& face : faces) {
-      drawOpaque(face);
-      const auto writeWindow = [&](const lists::Window& window) {
-        writeKnots({face, firstTexel, window}, map);
-      };
-      if (inputs_.casters.listed) {
-        prepareLists(texelsOf(face));
-        map.lists += lists_->buildWindows(
-            device_, [&](const lists::Pass& pass) { store(face, pass); }, writeWindow, windowTexels);
-      } else {
-        for (size_t first = 0; first < texelsOf(face); first += windowTexels)
-          writeWindow({first, std::min(windowTexels, texelsOf(face) - first)});
-      }
+      map.lists += drawFace(face, [&](const lists::Window& window) {
+        fits = fits && writeKnots({face, firstTexel, window}, map);
+      });
       firstTexel += texelsOf(face);
     }
+    map.units = firstUnit_ - map.firstUnit;
+    return fits;
+  }
+
+  // Units that the knots of a face take. Its texels are those of `texels` from the first on, and useless.
+  size_t count(const FaceProjection& face) {
+    size_t units = 0;
+    drawFace(face, [&](const lists::Window& window) {
+      units += write({face, 0, window}, SHADOW_ALL, knots_.bytes() / unitBytes).units;
+    });
+    return units;
   }
 
   size_t cutMarches() const { return cutMarches_; }
@@ -115,6 +127,20 @@ class Builder {
     if (inputs.casters.once) defines.emplace_back("SHADOW_ONCE_OBJECTS", "1");
     if (inputs.casters.notSelf) defines.emplace_back("SHADOW_NOT_SELF_OBJECTS", "1");
     return defines;
+  }
+
+  // The opaque depth of a face, then its lists window by window, for `consume`.
+  lists::ListStatistics drawFace(const FaceProjection& face,
+                                 const std::function<void(const lists::Window&)>& consume) {
+    drawOpaque(face);
+    if (inputs_.casters.listed) {
+      prepareLists(texelsOf(face));
+      return lists_->buildWindows(
+          device_, [&](const lists::Pass& pass) { store(face, pass); }, consume, windowTexels);
+    }
+    for (size_t first = 0; first < texelsOf(face); first += windowTexels)
+      consume({first, std::min(windowTexels, texelsOf(face) - first)});
+    return {};
   }
 
   void useFace(const FaceProjection& face) {
@@ -162,76 +188,81 @@ class Builder {
     inputs_.casters.listed();
   }
 
-  // The knots of a window, from firstKnot_ on. Texels that find no room in the pool are written again when it
-  // has grown, or behind the block that is full.
-  void writeKnots(const FaceWindow& window, LightMap& map) {
-    const gl::Profiler::Scope time(device_.profiler(), "knots");
+  // The knots of a window, from firstUnit_ on. Texels that find no room in the pool are written again when it
+  // has grown, or behind the block that is full. False when it cannot grow.
+  bool writeKnots(const FaceWindow& window, LightMap& map) {
     size_t wanted = 1;
-    for (bool all = true; wanted > 0; all = false) {
-      const size_t room = reserveKnots(wanted);
-      counters_.clear();
-      useFace(window.face);
-      useWindow(window, all);
-      depth_.bind(TEXTURE_OPAQUE_DEPTH);
-      if (inputs_.casters.listed) lists_->bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
-      inputs_.volumes.bind();
-      knots_.bindStorageRange(STORAGE_SHADOW_KNOTS, firstKnot_ * sizeof(shared::ShadowKnot),
-                              room * sizeof(shared::ShadowKnot));
-      counters_.bindStorage(STORAGE_COUNTERS);
-      gl::dispatchLinear(writer_, window.cells.cells);
-      gl::storageBarrier();
-      const auto counted = counters_.readValue<shared::ShadowCounters>();
-      const size_t written = counted.knots - counted.unplaced;
-      if (written == 0 && counted.unplaced > 0 && room == mostKnots())
-        base::fail(
-            base::ExitCode::Memory,
-            "deep shadow map: one texel has more knots than the {} that this device holds in one block: "
-            "remove some surfaces",
-            room);
-      firstKnot_ = alignedUp(firstKnot_ + written, knotAlignment);
-      map.knots += written;
+    for (int which = SHADOW_ALL; wanted > 0; which = SHADOW_UNPLACED) {
+      const size_t room = reserveUnits(wanted);
+      if (room == 0) return false;
+      const shared::ShadowCounters counted = write(window, which, room);
+      const size_t written = counted.units - counted.unplaced;
+      if (written == 0 && counted.unplaced > 0 && room == unitsOfBlock())
+        base::fail(base::ExitCode::Memory,
+                   "deep shadow map: one texel has more knots than the {} that this device holds in one "
+                   "block: remove some surfaces",
+                   room);
+      firstUnit_ = alignedUp(firstUnit_ + written, unitAlignment);
+      map.knotBytes += written * unitBytes;
       map.lists.hidden += counted.hidden;
       cutMarches_ += counted.boundHit;
       wanted = counted.unplaced;
     }
+    return true;
   }
 
-  // Of one block.
-  size_t mostKnots() const {
-    return static_cast<size_t>(device_.limits().storageBlockBytes) / sizeof(shared::ShadowKnot);
+  // Writes the knots of a window's texels, `which` of them (SHADOW_*), into `room` units from firstUnit_ on.
+  shared::ShadowCounters write(const FaceWindow& window, int which, size_t room) {
+    const gl::Profiler::Scope time(device_.profiler(), "knots");
+    counters_.clear();
+    useFace(window.face);
+    useWindow(window, which);
+    depth_.bind(TEXTURE_OPAQUE_DEPTH);
+    if (inputs_.casters.listed) lists_->bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
+    inputs_.volumes.bind();
+    knots_.bindStorageRange(STORAGE_SHADOW_KNOTS, firstUnit_ * unitBytes, room * unitBytes);
+    counters_.bindStorage(STORAGE_COUNTERS);
+    for (;;) {
+      gl::dispatchLinear(writer_, window.cells.cells);
+      gl::storageBarrier();
+      auto counted = counters_.readValue<shared::ShadowCounters>();
+      if (counted.unfinished == 0) return counted;
+      counted.unfinished = 0;
+      counters_.writeValue(counted);
+      useWindow(window, SHADOW_UNFINISHED);
+    }
   }
 
-  // Makes room for `wanted` knots from firstKnot_ on, or for as many as a block holds. Returns how many there
-  // may be.
-  size_t reserveKnots(size_t wanted) {
-    const size_t needed = firstKnot_ + std::min(wanted, mostKnots());
-    if (needed > knots_.bytes() / sizeof(shared::ShadowKnot)) growKnots(needed);
-    return std::min(knots_.bytes() / sizeof(shared::ShadowKnot) - firstKnot_, mostKnots());
+  size_t unitsOfBlock() const { return static_cast<size_t>(device_.limits().storageBlockBytes) / unitBytes; }
+
+  // Makes room for `wanted` units from firstUnit_ on, or for as many as a block holds. Returns how many there
+  // may be, 0 when the pool may not grow to that.
+  size_t reserveUnits(size_t wanted) {
+    const size_t needed = firstUnit_ + std::min(wanted, unitsOfBlock());
+    if (needed > knots_.bytes() / unitBytes && !growPool(needed)) return 0;
+    return std::min(knots_.bytes() / unitBytes - firstUnit_, unitsOfBlock());
   }
 
-  void growKnots(size_t knots) {
-    const auto readable = static_cast<size_t>(device_.limits().textureBufferTexels);
-    if (knots > readable)
-      base::fail(base::ExitCode::Memory,
-                 "deep shadow maps: more than the {} MiB that this device reads at once: lower --shadow-res",
-                 readable * sizeof(shared::ShadowKnot) >> 20);
+  bool growPool(size_t units) {
+    const size_t held = knots_.bytes() / unitBytes;  // while it is copied, both are there
+    if (units + held > mostUnits_) return false;
     // Half as much again, so that many lights do not grow it one by one.
-    gl::Buffer grown(device_, "deep shadow knots",
-                     std::min(knots * 3 / 2, readable) * sizeof(shared::ShadowKnot),
+    gl::Buffer grown(device_, poolLabel, std::min(units * 3 / 2, mostUnits_ - held) * unitBytes,
                      gl::Buffer::Whole::Never);
-    grown.copyFrom(knots_, std::min(firstKnot_ * sizeof(shared::ShadowKnot), knots_.bytes()));
+    grown.copyFrom(knots_, std::min(firstUnit_ * unitBytes, knots_.bytes()));
     knots_ = std::move(grown);
+    return true;
   }
 
-  // The window's texels and what is done with them; `all`, or those that found no room.
-  void useWindow(const FaceWindow& window, bool all) {
+  // The window's texels, and which of them are written.
+  void useWindow(const FaceWindow& window, int which) {
     const size_t firstTexel = window.firstTexelOfFace + window.cells.firstCell;
     const size_t bound = firstTexel / texelAlignment * texelAlignment;
     shared::ShadowPassParams params{};
-    params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(inputs_.error), 0.f, 0.f};
+    params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(error_), 0.f, 0.f};
     params.cells = {static_cast<int>(window.cells.firstCell), static_cast<int>(window.cells.cells), 0,
                     static_cast<int>(firstTexel - bound)};
-    params.knots = {static_cast<int>(firstKnot_), all ? 1 : 0, 0, 0};
+    params.units = {static_cast<int>(firstUnit_), which, 0, 0};
     passBlock_.writeValue(params);
     passBlock_.bindUniform(UNIFORM_PASS);
     texels_.bindStorageRange(STORAGE_SHADOW_TEXELS, bound * sizeof(shared::ShadowTexel),
@@ -240,8 +271,10 @@ class Builder {
 
   gl::Device& device_;
   const MapInputs& inputs_;
+  const double error_;
   gl::Buffer& texels_;
   gl::Buffer& knots_;
+  const size_t mostUnits_;
   const gl::Program& opaque_;
   const gl::Program& writer_;
   gl::Buffer viewBlock_;
@@ -250,44 +283,159 @@ class Builder {
   gl::Texture depth_;  // opaque depth of the face that is built
   std::unique_ptr<lists::Lists> lists_;
   size_t listCells_ = 0;
-  size_t firstKnot_ = 0;  // of the window that is built
+  size_t firstUnit_ = 0;  // of the window that is built
   size_t cutMarches_ = 0;
 };
 
+// What a texel's knots usually take, or somewhat more: where the maps fit with that, nobody counts. Smooth
+// smoke has knots as 1 / sqrt(error).
+size_t usualUnits(const MapInputs& inputs, double error) {
+  const double ofSmoke = inputs.volumes.empty() ? 0 : (error > 0 ? 0.75 / std::sqrt(error) : 256);
+  return 2 + static_cast<size_t>(ofSmoke) + (inputs.casters.listed ? 4 : 0);
+}
+
+// Units of the knots of all `faces`: those of faces with an eighth of the side, times as many as there are.
+size_t countUnits(gl::Device& device, const MapInputs& inputs, double error,
+                  std::span<const std::vector<FaceProjection>> facesOfLights) {
+  constexpr int reduction = 8;
+  size_t mostTexels = 0;
+  for (const std::vector<FaceProjection>& faces : facesOfLights)
+    for (const FaceProjection& face : faces) mostTexels = std::max(mostTexels, texelsOf(face));
+  gl::Buffer texels(device, texelsLabel, mostTexels * sizeof(shared::ShadowTexel), gl::Buffer::Whole::Never);
+  gl::Buffer noPool(device, poolLabel, unitAlignment * unitBytes);
+  Builder builder(device, inputs, error, texels, noPool, 0);
+  double units = 0;
+  for (const std::vector<FaceProjection>& faces : facesOfLights) {
+    for (const FaceProjection& face : faces) {
+      FaceProjection reduced = face;
+      reduced.side = std::min(face.side, faceSide(face.side / reduction));
+      units += static_cast<double>(builder.count(reduced)) * static_cast<double>(texelsOf(face)) /
+               static_cast<double>(texelsOf(reduced));
+    }
+  }
+  return static_cast<size_t>(units);
+}
+
 }  // namespace
 
-Maps::Maps(gl::Device& device, const MapInputs& inputs) {
-  std::vector<std::vector<FaceProjection>> faces;
-  std::vector<shared::ShadowFace> data;
-  size_t texels = 0;
-  for (const lights::Light& light : inputs.lights) {
-    LightMap& map = lightMaps_.emplace_back();
-    faces.emplace_back();
-    if (!light.castsShadow) continue;
-    faces.back() = scene::facesOf(light, inputs.resolution, inputs.receivers, inputs.castingPoints);
-    map.firstFace = static_cast<int>(data.size());
-    map.faces = static_cast<int>(faces.back().size());
-    map.firstTexel = texels;
-    for (const FaceProjection& face : faces.back()) {
-      data.push_back(faceData(face, map.firstTexel + map.texels));
-      map.texels += texelsOf(face);
+Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
+  const auto readable = static_cast<size_t>(device.limits().textureBufferTexels);
+  budgetBytes_ = inputs.budget.bytes != 0 ? inputs.budget.bytes : readable * unitBytes;
+  const auto excessOf = [&](size_t texels, size_t units) {
+    const auto bytes = static_cast<double>(texels * sizeof(shared::ShadowTexel) + units * unitBytes);
+    return std::max(bytes / static_cast<double>(budgetBytes_),
+                    static_cast<double>(std::max(texels, units)) / static_cast<double>(readable));
+  };
+  for (bool counting = false;;) {
+    const size_t texels = arrange(inputs);
+    double excess = excessOf(texels, 0);
+    counting = counting || excessOf(texels, texels * usualUnits(inputs, plan_.error)) > 1;
+    size_t units = 0;
+    if (excess <= 1 && counting) {
+      units = countUnits(device, inputs, plan_.error, projections_);
+      excess = excessOf(texels, units);
+      predictedBytes_ = texels * sizeof(shared::ShadowTexel) + units * unitBytes;
     }
-    texels += map.texels;
+    if (excess <= 1) {
+      if (tryBuild(device, inputs, texels, units)) break;
+      if (!counting) {
+        counting = true;
+        continue;
+      }
+    }
+    constexpr double margin = 1.05;  // for what was counted at fewer texels
+    const auto next = coarser(plan_, inputs.plan, inputs.budget, margin * std::max(excess, 1.0));
+    if (!next)
+      base::fail(base::ExitCode::Memory,
+                 "deep shadow maps: take {:.2g} times the {:.1f} MiB that they may: give them more with "
+                 "--shadow-memory, or lower --shadow-res",
+                 excess, static_cast<double>(budgetBytes_) / 0x1p20);
+    plan_ = *next;
+    lowered_ = true;
   }
-  faces_ = gl::Buffer(device, "shadow faces", std::span<const shared::ShadowFace>(data));
-  texels_ = gl::Buffer(device, "deep shadow texels", texels * sizeof(shared::ShadowTexel),
-                       gl::Buffer::Whole::Never);
-  // A first guess; the pool grows.
-  const size_t knots = inputs.volumes.empty() ? texels / 2 : texels * 5 / 4;
-  knots_ =
-      gl::Buffer(device, "deep shadow knots", knots * sizeof(shared::ShadowKnot), gl::Buffer::Whole::Never);
-
-  Builder builder(device, inputs, texels_, knots_);
-  for (size_t i = 0; i < lightMaps_.size(); ++i)
-    if (lightMaps_[i].firstFace >= 0) builder.build(faces[i], lightMaps_[i]);
   texelsView_ = gl::BufferTexture(device, texels_, gl::BufferFormat::RGB32UI);
   knotsView_ = gl::BufferTexture(device, knots_, gl::BufferFormat::RGBA32F);
+}
+
+// The faces of all lights, and where their texels stand. Returns how many there are.
+size_t Maps::arrange(const MapInputs& inputs) {
+  lightMaps_.clear();
+  projections_.clear();
+  size_t texels = 0;
+  int faces = 0;
+  for (size_t i = 0; i < inputs.lights.size(); ++i) {
+    LightMap& map = lightMaps_.emplace_back();
+    projections_.emplace_back();
+    if (!inputs.lights[i].castsShadow || plan_.resolutions[i] == 0) continue;
+    projections_.back() =
+        scene::facesOf(inputs.lights[i], plan_.resolutions[i], inputs.receivers, inputs.castingPoints);
+    map.resolution = plan_.resolutions[i];
+    map.firstFace = faces;
+    map.faces = static_cast<int>(projections_.back().size());
+    map.firstTexel = texels;
+    for (const FaceProjection& face : projections_.back()) map.texels += texelsOf(face);
+    faces += map.faces;
+    texels += map.texels;
+  }
+  return texels;
+}
+
+// `units`: what the pool takes by count, 0 where nobody counted. False when it takes more than the budget.
+bool Maps::tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, size_t units) {
+  const size_t texelBytes = texels * sizeof(shared::ShadowTexel);
+  const size_t mostUnits = std::min((budgetBytes_ - texelBytes) / unitBytes,
+                                    static_cast<size_t>(device.limits().textureBufferTexels));
+  const size_t guess = inputs.volumes.empty() ? texels / 4 : texels * 3 / 4;  // the pool grows
+  const size_t firstUnits = units != 0 ? units + units / 10 + (1 << 12) : guess;
+  texels_ = gl::Buffer();
+  knots_ = gl::Buffer();
+  texels_ = gl::Buffer(device, texelsLabel, texelBytes, gl::Buffer::Whole::Never);
+  knots_ =
+      gl::Buffer(device, poolLabel, std::min(firstUnits, mostUnits) * unitBytes, gl::Buffer::Whole::Never);
+  std::vector<shared::ShadowFace> faces;
+  Builder builder(device, inputs, plan_.error, texels_, knots_, mostUnits);
+  for (size_t i = 0; i < lightMaps_.size(); ++i) {
+    size_t firstTexel = lightMaps_[i].firstTexel;
+    for (const FaceProjection& face : projections_[i]) {
+      faces.push_back(faceData(face, firstTexel));
+      firstTexel += texelsOf(face);
+    }
+    if (!projections_[i].empty() && !builder.build(projections_[i], lightMaps_[i])) return false;
+  }
+  faces_ = gl::Buffer(device, "shadow faces", std::span<const shared::ShadowFace>(faces));
   cutMarches_ = builder.cutMarches();
+  return true;
+}
+
+size_t Maps::bytes() const {
+  size_t sum = 0;
+  for (const LightMap& map : lightMaps_) sum += map.texels * sizeof(shared::ShadowTexel) + map.knotBytes;
+  return sum;
+}
+
+ReadMap Maps::read(size_t light) const {
+  const LightMap& map = lightMaps_[light];
+  std::vector<shared::ShadowTexel> texels(map.texels);
+  std::vector<shared::ShadowKnot> units(map.units);
+  texels_.read(std::as_writable_bytes(std::span(texels)), map.firstTexel * sizeof(shared::ShadowTexel));
+  knots_.read(std::as_writable_bytes(std::span(units)), map.firstUnit * unitBytes);
+  ReadMap result;
+  for (const shared::ShadowTexel& texel : texels) {
+    const size_t count = texel.count & SHADOW_KNOTS;
+    const size_t first = texel.first - map.firstUnit;
+    result.texels.push_back({result.knots.size(), count, texel.opaqueDepth});
+    for (size_t i = 0; i < count; ++i) {
+      if ((texel.count & SHADOW_GREY) == 0) {
+        result.knots.push_back(units[first + i]);
+      } else {
+        const shared::ShadowKnot& pair = units[first + i / 2];
+        const float depth = i % 2 == 0 ? pair.depth : pair.tauG;
+        const float tau = i % 2 == 0 ? pair.tauR : pair.tauB;
+        result.knots.push_back({depth, tau, tau, tau});
+      }
+    }
+  }
+  return result;
 }
 
 void Maps::bind() const {

@@ -10,12 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "deepshadow/map_plan.h"
 #include "deepshadow/shadow_faces.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "lights/light.h"
 #include "lists/lists_gpu.h"
+#include "shaders/shared/deepshadow.h"
 #include "volumes/volumes_gpu.h"
 
 namespace sfumato::deepshadow {
@@ -36,42 +38,71 @@ struct MapInputs {
   const volumes::VolumesGpu& volumes;
   const std::vector<glm::dvec3>& receivers;      // see directionalFace()
   const std::vector<glm::dvec3>& castingPoints;  // its `casters`
-  int resolution = 1024;                         // texels a side; a face of a cube has half
-  double stepVoxels = 1.5;                       // of the march through smoke
-  double error =
-      1.0 /
-      512;  // bound of the error that compression adds to the transmittance of smoke; 0 keeps every step
+  MapPlan plan;                                  // what is asked for; a face of a cube has half a side
+  MapBudget budget{};
+  double stepVoxels = 1.5;  // of the march through smoke
   lists::ListOptions lists{};
 };
 
 struct LightMap {
   int firstFace = -1;  // among all faces; -1: this light casts no shadow
   int faces = 0;
+  int resolution = 0;  // texels a side; a face of a cube has half
   size_t firstTexel = 0;
   size_t texels = 0;
-  size_t knots = 0;
+  size_t knotBytes = 0;
+  size_t firstUnit = 0;  // of the pool, whose units are 16 bytes; some are not used
+  size_t units = 0;
   lists::ListStatistics lists;
+};
+
+// A light's map on the CPU: transmittance of a texel is 0 behind its opaque depth; before it, exp(-tau), with
+// tau linear between knots (0 before the first, the last one's behind it).
+struct ReadMap {
+  struct Texel {
+    size_t firstKnot;
+    size_t knots;
+    float opaqueDepth;  // NOTHING_OPAQUE of shaders/shared/deepshadow.h: there is nothing
+  };
+  std::vector<Texel> texels;  // face after face, rows from the bottom
+  std::vector<shared::ShadowKnot> knots;
 };
 
 class Maps {
  public:
-  // Builds the maps of every shadow-casting light. Costs 12 bytes a texel and 16 a knot; while it builds, 8
+  // Builds the maps that the plan asks for, or, where they are more than the budget, of a coarser plan that
+  // fits (map_plan.h): what they take is counted beforehand, at an eighth of the resolution. Costs 12 bytes a
+  // texel and 8 a knot of a texel whose smoke and surfaces are grey, 16 a knot of others; while it builds, 8
   // bytes a texel of a window and 16 a translucent surface in it, more with some strategies
-  // (lists/lists_gpu.h). Throws Memory when the maps are more than the device reads, or one texel's lists are
-  // over the budget.
+  // (lists/lists_gpu.h). Throws Memory when no plan fits that the budget allows, or one texel's lists are
+  // over theirs.
   Maps(gl::Device& device, const MapInputs& inputs);
 
   const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights
-  // Texels whose march through smoke or walk over their list was cut at its bound; 0 unless steps are
-  // absurdly short or a light passes thousands of objects that shadow once.
+  const MapPlan& plan() const { return plan_; }                       // what they were built with
+  bool lowered() const { return lowered_; }                           // whether that is coarser than asked
+  size_t bytes() const;                                               // of texels and knots
+  size_t predictedBytes() const { return predictedBytes_; }           // that were counted; 0: no need
+  size_t budgetBytes() const { return budgetBytes_; }
+  const std::vector<FaceProjection>& faces(size_t light) const { return projections_[light]; }
+  // Texels whose march through smoke was cut at its bound, so that it is coarser than it should be; 0 unless
+  // steps are absurdly short. Lists of surfaces are walked to their end, in several dispatches if need be.
   size_t cutMarches() const { return cutMarches_; }
   // For shaders that include shaders/deepshadow/lookup.glsl.
   void bind() const;
-  const gl::Buffer& texels() const { return texels_; }
-  const gl::Buffer& knots() const { return knots_; }
+  // A light's map, read back.
+  ReadMap read(size_t light) const;
 
  private:
+  size_t arrange(const MapInputs& inputs);
+  bool tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, size_t units);
+
+  MapPlan plan_;
+  bool lowered_ = false;
+  size_t budgetBytes_ = 0;
+  size_t predictedBytes_ = 0;
   std::vector<LightMap> lightMaps_;
+  std::vector<std::vector<FaceProjection>> projections_;  // of each light
   gl::Buffer faces_;
   gl::Buffer texels_;
   gl::Buffer knots_;

@@ -154,8 +154,8 @@ volumes::DensityGrid voxelise(int voxels, const Inside& inside) {
   return grid;
 }
 
-// Figure 3.1.
-void makeCurtains(const fs::path& folder) {
+// Three curtains between columns, that hang at z = 0.
+Gltf curtainScene() {
   Gltf gltf = newScene();
   addFloor(gltf);
   addWall(gltf, 2.5f);
@@ -172,10 +172,23 @@ void makeCurtains(const fs::path& folder) {
         "curtain", curtain,
         gltf.addMaterial({.name = "fabric", .colour = colours[i], .alpha = 0.95f, .transmission = 0.75f}),
         at({1.5f * static_cast<float>(i) - 1.5f, 0.25f, 0}));
-  addLamp(gltf, {0.2f, 1.3f, -1.2f}, {1, 0.93f, 0.82f}, 30);
   addSky(gltf, 0.15f);
   gltf.addCamera("camera", 0.62f, lookingAt({0.7f, 2.2f, 5.6f}, {0, 0.95f, 0}));
+  return gltf;
+}
+
+// Figure 3.1, with a point light.
+void makeCurtains(const fs::path& folder) {
+  Gltf gltf = curtainScene();
+  addLamp(gltf, {0.2f, 1.3f, -1.2f}, {1, 0.93f, 0.82f}, 30);
   gltf.write(folder / "curtains.gltf");
+}
+
+// The same with a spot, from the other side.
+void makeCurtainsInSpot(const fs::path& folder) {
+  Gltf gltf = curtainScene();
+  addSpot(gltf, 420, {-2.6f, 3.3f, 4.4f}, {0, 1.1f, -0.4f}, 0.36f, 0.44f);
+  gltf.write(folder / "curtains_in_spot.gltf");
 }
 
 // Figure 3.2.
@@ -214,6 +227,26 @@ void makeSmoke(const fs::path& folder) {
   addSky(gltf, 0.12f);
   gltf.addCamera("camera", 0.62f, lookingAt({-1.1f, 1.5f, 5.2f}, {0.5f, 1.3f, 0}));
   gltf.write(folder / "smoke.gltf");
+}
+
+// Light through smoke: slats cut the beam of a spot into blades.
+void makeBlades(const fs::path& folder) {
+  Gltf gltf = newScene();
+  addFloor(gltf);
+  addWall(gltf, 1.8f);
+  Shape slats;
+  for (int i = 0; i < 7; ++i) {
+    const float y = 0.9f + 0.26f * static_cast<float>(i);
+    slats.addBox({-1.85f, y, -0.9f}, {-1.8f, y + 0.13f, 0.9f});
+  }
+  gltf.addShape("slats", slats, gltf.addMaterial({.name = "wood", .colour = {0.3f, 0.2f, 0.12f}}));
+  json smoke = at({0.1f, 0, 0});
+  smoke["scale"] = {2.2, 1.25, 1.6};
+  addSmoke(gltf, "plume.vdb", 2.2f, smoke, {0.95f, 0.95f, 0.95f}, 0.4f);
+  addSpot(gltf, 320, {-4.2f, 3.1f, 0.3f}, {0, 1.35f, 0}, 0.3f, 0.36f);
+  addSky(gltf, 0.1f);
+  gltf.addCamera("camera", 0.62f, lookingAt({0.9f, 1.6f, 5}, {-0.1f, 1.35f, 0}));
+  gltf.write(folder / "blades.gltf");
 }
 
 // Figure 3.4: as it is, and with the way through a shell counted.
@@ -452,8 +485,10 @@ void makeGallery(const fs::path& folder) {
   constexpr uint64_t seed = 2;
   volumes::writeVdb(folder / "plume.vdb", volumes::makePlume(voxelsHigh, plumeHeight, seed));
   makeCurtains(folder);
+  makeCurtainsInSpot(folder);
   makeVolumes(folder);
   makeSmoke(folder);
+  makeBlades(folder);
   makeTeapots(folder);
   makeSlide(folder);
   makeColouredSmoke(folder);

@@ -30,6 +30,8 @@ struct FormatTraits {
 
 FormatTraits traits(Format format) {
   switch (format) {
+    case Format::R16F:
+      return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
     case Format::R32F:
       return {GL_R32F, GL_RED, GL_FLOAT, 4};
     case Format::R32UI:
@@ -154,6 +156,18 @@ void Texture::bind(unsigned unit) const {
 
 void Texture::bindImage(unsigned unit) const {
   glBindImageTexture(unit, name(), 0, GL_TRUE, 0, GL_READ_WRITE, traits(format_).internal);
+}
+
+void Texture::writeLayers(std::span<const std::byte> texels, int first, int count) {
+  const FormatTraits format = traits(format_);
+  base::check(target_ == GL_TEXTURE_3D &&
+                  texels.size() == bytes_ / static_cast<size_t>(size_.z) * static_cast<size_t>(count),
+              "layers get as many texels as they have");
+  bind(0);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(target_, 0, 0, 0, first, size_.x, size_.y, count, format.layout, format.type,
+                  texels.data());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 
 void Texture::copyFrom(const Buffer& texels) {

@@ -18,7 +18,7 @@ namespace sfumato::gl {
 void deleteTexture(unsigned name);
 void deleteFramebuffer(unsigned name);
 
-enum class Format { R32F, R32UI, R32I, RGBA8, SRGB8A8, RGBA16F, RGBA32UI, Depth32F };
+enum class Format { R16F, R32F, R32UI, R32I, RGBA8, SRGB8A8, RGBA16F, RGBA32UI, Depth32F };
 enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32F };
 enum class Filter { Nearest, Linear };
 using scene::Minify;
@@ -50,6 +50,8 @@ class Texture {
   void bind(unsigned unit) const;
   // For image loads, stores and atomics of shaders, in the texture's own format.
   void bindImage(unsigned unit) const;
+  // Writes `count` layers of a 3D texture, from layer `first` on.
+  void writeLayers(std::span<const std::byte> texels, int first, int count);
   // Takes all texels from the start of a buffer, in that order.
   void copyFrom(const Buffer& texels);
   // Reads back all texels, in the order in which the constructor takes them; not of multisample textures.

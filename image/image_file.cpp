@@ -4,6 +4,7 @@
 
 #ifdef SFUMATO_OPENIMAGEIO
 
+#include <OpenImageIO/deepdata.h>
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -61,26 +62,44 @@ Ending endingOf(const fs::path& path) {
 
 constexpr int stripeRows = 64;  // that are converted at a time; zip packs 16 together
 
+// Metadata of every file.
+void describe(OIIO::ImageSpec& spec, const Metadata& metadata) {
+  for (const auto& [name, value] : metadata) spec.attribute(name, value);
+  spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day: the same run, other bytes
+}
+
+// Writes rows first to first + count - 1 of a part; false where that failed.
+using WriteRows = std::function<bool(OIIO::ImageOutput& output, size_t part, int first, int count)>;
+
+// Writes all parts to a file `name`; `path` is what errors call it.
+void writeParts(const fs::path& path, const std::string& name, std::span<const OIIO::ImageSpec> parts,
+                const WriteRows& writeRows) {
+  const auto output = OIIO::ImageOutput::create(path.string());
+  if (!output) fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(OIIO::geterror()));
+  bool written = parts.size() == 1 ? output->open(name, parts[0])
+                                   : output->open(name, static_cast<int>(parts.size()), parts.data());
+  for (size_t part = 0; part < parts.size() && written; ++part) {
+    if (part > 0) written = output->open(name, parts[part], OIIO::ImageOutput::AppendSubimage);
+    for (int y = 0; y < parts[part].height && written; y += stripeRows)
+      written = writeRows(*output, part, y, std::min(stripeRows, parts[part].height - y));
+  }
+  if (!output->close() || !written)
+    fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(output->geterror()));
+}
+
 // The pixels of rows first to first + count - 1, in the file's order of channels.
 using Rows = std::function<const void*(int first, int count)>;
 
 void write(const fs::path& path, OIIO::ImageSpec spec, const Metadata& metadata, OIIO::TypeDesc type,
            const Rows& rows) {
-  for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  spec.attribute("DateTime", "");  // else OpenImageIO writes the time of day: the same run, other bytes
+  describe(spec, metadata);
   // Into memory first: OpenImageIO does not say when a disk is full.
   OIIO::Filesystem::IOVecOutput memory;
   OIIO::Filesystem::IOProxy* target = &memory;
   spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &target);
-  const auto output = OIIO::ImageOutput::create(path.string());
-  if (!output) fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(OIIO::geterror()));
-  bool written = output->open(path.string(), spec);
-  for (int y = 0; y < spec.height && written; y += stripeRows) {
-    const int count = std::min(stripeRows, spec.height - y);
-    written = output->write_scanlines(y, y + count, 0, type, rows(y, count));
-  }
-  if (!output->close() || !written)
-    fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), oneLine(output->geterror()));
+  writeParts(path, path.string(), {&spec, 1}, [&](OIIO::ImageOutput& output, size_t, int first, int count) {
+    return output.write_scanlines(first, first + count, 0, type, rows(first, count));
+  });
   base::writeFile(path, {reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size()});
 }
 
@@ -145,6 +164,111 @@ void writePng(const fs::path& path, const Image& image, const Metadata& metadata
         });
 }
 
+// Whether some sample takes more of one colour than of another.
+bool isColoured(const DeepImage& image) {
+  return std::ranges::any_of(image.pixels, [](const std::vector<DeepSample>& samples) {
+    return std::ranges::any_of(samples, [](const DeepSample& sample) {
+      return sample.takes != std::array{sample.alpha, sample.alpha, sample.alpha};
+    });
+  });
+}
+
+// The channels of a deep file, in this order; the last three where it is coloured.
+enum DeepChannel { R, G, B, A, Z, ZBack, RA, GA, BA };
+
+OIIO::ImageSpec deepSpec(const DeepImage& image, bool coloured) {
+  OIIO::ImageSpec spec(image.width, image.height, coloured ? 9 : 6, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"R", "G", "B", "A", "Z", "ZBack"};
+  if (coloured) spec.channelnames.insert(spec.channelnames.end(), {"RA", "GA", "BA"});
+  spec.channelformats.assign(spec.channelnames.size(), OIIO::TypeDesc::HALF);
+  spec.channelformats[Z] = spec.channelformats[ZBack] = OIIO::TypeDesc::FLOAT;
+  spec.alpha_channel = A;
+  spec.z_channel = Z;
+  spec.deep = true;
+  spec.attribute("compression", "zips");
+  spec.attribute("worldtocamera", OIIO::TypeDesc::TypeMatrix, image.view.worldToCamera.data());
+  spec.attribute("worldtoNDC", OIIO::TypeDesc::TypeMatrix, image.view.worldToNdc.data());
+  if (!image.name.empty()) spec.attribute("oiio:subimagename", image.name);
+  return spec;
+}
+
+// A pixel whose values become halves: what one sample's rounding changes of the light behind it is made up
+// for by the next one, so that the flattened pixel is as exact as a half.
+class DeepPixelWriter {
+ public:
+  DeepPixelWriter(OIIO::DeepData& data, int64_t pixel) : data_(data), pixel_(pixel) {}
+
+  void write(const DeepSample& sample) {
+    for (size_t c = 0; c < 3; ++c) store(R + static_cast<int>(c), dimmed(sample.colour[c] * colour_.exact));
+    store(Z, sample.z);
+    store(ZBack, sample.zBack);
+    take(A, colour_, sample.alpha);
+    if (data_.channels() > RA)
+      for (size_t c = 0; c < 3; ++c) take(RA + static_cast<int>(c), channels_[c], sample.takes[c]);
+    ++sample_;
+  }
+
+ private:
+  // Light that is left of what comes from behind: as the samples have it, and as the file has it.
+  struct Left {
+    double exact = 1;
+    double written = 1;
+  };
+
+  float dimmed(double radiance) const {
+    const double value = colour_.written > 0 ? radiance / colour_.written : 0.0;
+    return static_cast<float>(std::clamp(value, -double{largestHalf}, double{largestHalf}));
+  }
+
+  void take(int channel, Left& left, float alpha) {
+    constexpr float mostBelowOne = 0.99951171875f;  // in halves
+    left.exact *= 1.0 - alpha;
+    float written = left.written > 0 ? static_cast<float>(1.0 - left.exact / left.written) : 0.f;
+    if (left.exact > 0) written = std::clamp(written, 0.f, mostBelowOne);
+    left.written *= 1.0 - store(channel, written);
+  }
+
+  // What it is as the channel's type.
+  double store(int channel, float value) {
+    data_.set_deep_value(pixel_, channel, sample_, value);
+    return data_.deep_value(pixel_, channel, sample_);
+  }
+
+  OIIO::DeepData& data_;
+  const int64_t pixel_;
+  int sample_ = 0;
+  Left colour_;
+  std::array<Left, 3> channels_;
+};
+
+OIIO::DeepData deepRows(const DeepImage& image, const OIIO::ImageSpec& spec, int first, int count) {
+  const size_t pixels = static_cast<size_t>(count) * static_cast<size_t>(image.width);
+  const std::vector<DeepSample>* from = &image.pixel(0, first);
+  OIIO::DeepData data;
+  data.init(static_cast<int64_t>(pixels), spec.nchannels, spec.channelformats, spec.channelnames);
+  std::vector<unsigned> counts(pixels);
+  for (size_t i = 0; i < pixels; ++i) counts[i] = static_cast<unsigned>(from[i].size());
+  data.set_all_samples(counts);
+  for (size_t i = 0; i < pixels; ++i) {
+    DeepPixelWriter writer(data, static_cast<int64_t>(i));
+    for (const DeepSample& sample : from[i]) writer.write(sample);
+  }
+  return data;
+}
+
+// Throws Input unless the last row of the last part can be read: OpenImageIO does not say when a disk was
+// full.
+void checkDeepEnd(const fs::path& path, const std::string& name) {
+  const auto input = OIIO::ImageInput::open(name);
+  int parts = 0;
+  while (input && input->seek_subimage(parts, 0)) ++parts;
+  OIIO::DeepData row;
+  const int last = input ? input->spec().height - 1 : 0;
+  if (!input ||
+      !input->read_native_deep_scanlines(parts - 1, 0, last, last + 1, 0, 0, input->spec().nchannels, row))
+    fail(ExitCode::Input, "{}: cannot be written whole: is the disk full?", path.string());
+}
+
 // Red, green and blue; grey where there are fewer.
 OIIO::ImageBuf colourOf(const Image& image) {
   OIIO::ImageBuf buffer(OIIO::ImageSpec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT));
@@ -193,7 +317,7 @@ bool pngIsWhole(std::span<const std::byte> bytes) {
   return false;
 }
 
-// Throws Input unless the file is a flat image of sane size.
+// Throws Input unless the file is an image of sane size.
 std::unique_ptr<OIIO::ImageInput> openImage(const fs::path& path) {
   std::error_code error;
   const uint64_t fileBytes = fs::file_size(path, error);
@@ -204,8 +328,8 @@ std::unique_ptr<OIIO::ImageInput> openImage(const fs::path& path) {
   auto input = OIIO::ImageInput::open(path.string(), &hints);
   if (!input) fail(ExitCode::Input, "{}: cannot be read: {}", path.string(), oneLine(OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1 || spec.deep)
-    fail(ExitCode::Input, "{}: is not a flat two-dimensional image", path.string());
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1)
+    fail(ExitCode::Input, "{}: is not a two-dimensional image", path.string());
   const uint64_t pixels = static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.height);
   if (pixels > maxImageValues / static_cast<uint64_t>(spec.nchannels) ||
       pixels / maxPixelsPerByte > fileBytes)
@@ -222,10 +346,27 @@ Image readChannels(OIIO::ImageInput& input, const fs::path& path, int begin, int
   return image;
 }
 
+// R, G and B of a deep image, its samples put over each other.
+Image readFlattened(OIIO::ImageInput& input, const fs::path& path) {
+  OIIO::ImageBuf deep(input.spec());
+  if (!deep.deepdata() || !input.read_native_deep_image(0, 0, *deep.deepdata()))
+    fail(ExitCode::Input, "{}: is damaged: {}: write it again", path.string(), oneLine(input.geterror()));
+  const OIIO::ImageBuf flat = OIIO::ImageBufAlgo::flatten(deep);
+  Image image(input.spec().width, input.spec().height, 3);
+  const auto& names = input.spec().channelnames;
+  const bool hasColour = names.size() >= 3 && names[0] == "R" && names[1] == "G" && names[2] == "B";
+  const OIIO::ROI colour(0, image.width, 0, image.height, 0, 1, 0, 3);
+  if (!hasColour || flat.has_error() || !flat.get_pixels(colour, OIIO::TypeDesc::FLOAT, image.values.data()))
+    fail(ExitCode::Input, "{}: is a deep image that cannot be flattened: {}", path.string(),
+         hasColour ? oneLine(flat.geterror()) : "it has no R, G and B");
+  return image;
+}
+
 }  // namespace
 
 Image readImage(const fs::path& path) {
   const auto input = openImage(path);
+  if (input->spec().deep) return readFlattened(*input, path);
   const std::vector<std::string>& names = input->spec().channelnames;
   const int channels = input->spec().nchannels;
   // OpenImageIO puts R, G, B and A first.
@@ -236,6 +377,7 @@ Image readImage(const fs::path& path) {
 
 Layer readLayer(const fs::path& path, const std::string& name) {
   const auto input = openImage(path);
+  if (input->spec().deep) fail(ExitCode::Input, "{}: is a deep image: it has no layers", path.string());
   const std::vector<std::string>& names = input->spec().channelnames;
   const auto isOfLayer = [&](const std::string& channel) { return channel.starts_with(name + "."); };
   const auto first = std::find_if(names.begin(), names.end(), isOfLayer);
@@ -263,12 +405,32 @@ void writeLayers(const fs::path& path, const Image& image, std::span<const Layer
   writeExr(path, image, layers, metadata, false);
 }
 
+void writeDeep(const fs::path& path, std::span<const DeepImage> parts, const Metadata& metadata) {
+  checkDeepName(path);
+  std::vector<OIIO::ImageSpec> specs;
+  const bool coloured = std::ranges::any_of(parts, isColoured);
+  for (const DeepImage& part : parts) describe(specs.emplace_back(deepSpec(part, coloured)), metadata);
+  base::PendingFile pending(path);  // as OpenImageIO writes no deep images into memory
+  writeParts(path, pending.temporary().string(), specs,
+             [&](OIIO::ImageOutput& output, size_t part, int first, int count) {
+               return output.write_deep_scanlines(first, first + count, 0,
+                                                  deepRows(parts[part], specs[part], first, count));
+             });
+  checkDeepEnd(path, pending.temporary().string());
+  pending.rename();
+}
+
 bool holdsLayers(const fs::path& path) {
   return endingOf(path) == Ending::Exr;
 }
 
 void checkImageName(const fs::path& path) {
   endingOf(path);
+}
+
+void checkDeepName(const fs::path& path) {
+  if (endingOf(path) != Ending::Exr)
+    fail(ExitCode::Usage, "{}: is not the name of a deep image: use .exr", path.string());
 }
 
 Picture decodePicture(std::span<const std::byte> bytes, const std::string& name) {
@@ -343,6 +505,10 @@ void writeLayers(const std::filesystem::path& path, const Image&, std::span<cons
   failWithoutOpenImageIO(path.string());
 }
 
+void writeDeep(const std::filesystem::path& path, std::span<const DeepImage>, const Metadata&) {
+  failWithoutOpenImageIO(path.string());
+}
+
 bool holdsLayers(const std::filesystem::path& path) {
   failWithoutOpenImageIO(path.string());
 }
@@ -352,6 +518,10 @@ Layer readLayer(const std::filesystem::path& path, const std::string&) {
 }
 
 void checkImageName(const std::filesystem::path& path) {
+  failWithoutOpenImageIO(path.string());
+}
+
+void checkDeepName(const std::filesystem::path& path) {
   failWithoutOpenImageIO(path.string());
 }
 

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "image/deep_image.h"
 #include "image/image.h"
 
 namespace sfumato::image {
 
 // Reads any image that OpenImageIO knows as float, linear where the file says how it is encoded to be linear
-// (EXR), else as stored; of one with layers only R, G, B and A. Throws Input: missing, damaged, empty or
-// larger than 2^31 values.
+// (EXR), else as stored; of one with layers only R, G, B and A; of a deep one R, G and B, flattened. Throws
+// Input: missing, damaged, empty or larger than 2^31 values.
 Image readImage(const std::filesystem::path& path);
 
 // Writes channels R, G, B (and A for four channels) of a linear image; the ending chooses: `.exr` (half
@@ -31,6 +32,13 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Met
 void writeLayers(const std::filesystem::path& path, const Image& image, std::span<const Layer> layers,
                  const Metadata& metadata);
 
+// Writes deep images of one file, an `.exr` part each, scanlines of R, G, B, A (halves), Z and ZBack
+// (floats), and where a sample takes more of one colour than of another RA, GA and BA (halves). R, G, B and A
+// are an ordinary deep image without the latter: flattened they are what the samples are, within the rounding
+// of halves. The rest as writeImage(); while it writes, the file is in memory. Other endings are a Usage
+// error.
+void writeDeep(const std::filesystem::path& path, std::span<const DeepImage> parts, const Metadata& metadata);
+
 // Whether writeLayers() can write the file: it ends in .exr. Throws as checkImageName().
 bool holdsLayers(const std::filesystem::path& path);
 
@@ -40,6 +48,9 @@ Layer readLayer(const std::filesystem::path& path, const std::string& name);
 
 // Throws Usage unless writeImage knows the ending of `path`.
 void checkImageName(const std::filesystem::path& path);
+
+// Throws Usage unless writeDeep knows the ending of `path`.
+void checkDeepName(const std::filesystem::path& path);
 
 // A picture as 8-bit RGBA, rows from the top, as stored (sRGB stays sRGB).
 struct Picture {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "gl/commands.h"
+#include "gl/texture.h"
 #include "lights/light_reach.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/lights.h"
@@ -12,6 +14,7 @@ namespace sfumato::lights {
 
 namespace {
 
+constexpr size_t manyLights = 256;    // from here on computing was the faster: docs/measured.md
 constexpr size_t proxyVertices = 60;  // of the icosahedron; the cone's pyramid uses 48 of them
 
 shared::LightData lightData(const Light& light, const ShadowFaces& shadow, int number) {
@@ -36,17 +39,23 @@ shared::LightData lightData(const Light& light, const ShadowFaces& shadow, int n
 
 }  // namespace
 
-LightLists::Cells LightLists::cellsOf(const LightListInputs& inputs) {
-  const glm::ivec4 window = inputs.window.value_or(glm::ivec4(0, 0, inputs.width, inputs.height));
+LightLists::Cells LightLists::cellsOf(int width, int height, const glm::ivec4& window) {
   const glm::ivec2 first = glm::ivec2(window) / cellSide;
-  return {.ofImage = {cellsAlong(inputs.width), cellsAlong(inputs.height)},
+  return {.ofImage = {cellsAlong(width), cellsAlong(height)},
           .first = first,
           .count = glm::ivec2(cellsAlong(window.x + window.z), cellsAlong(window.y + window.w)) - first};
 }
 
+LightLists::Cells LightLists::cellsOf(const LightListInputs& inputs) {
+  return cellsOf(inputs.width, inputs.height,
+                 inputs.window.value_or(glm::ivec4(0, 0, inputs.width, inputs.height)));
+}
+
 LightLists::LightLists(gl::Device& device, const LightListInputs& inputs, const Cells& cells)
-    : order_(lightOrder(inputs.lights)),
-      lists_(device, "light lists", cells.number(), sizeof(float), inputs.lists) {
+    : order_(lightOrder(inputs.lights)), lists_(device, "light lists", cells.number(), 0, inputs.lists) {
+  if (order_.size() > LIGHT_MOST)
+    base::fail(base::ExitCode::Input, "scene: {} lights, and at most {} can be drawn: remove some",
+               order_.size(), LIGHT_MOST);
   std::vector<shared::LightData> data;
   for (const int number : order_) {
     const Light& light = inputs.lights[static_cast<size_t>(number)];
@@ -57,7 +66,7 @@ LightLists::LightLists(gl::Device& device, const LightListInputs& inputs, const 
 
   shared::LightPassParams params{};
   params.cells = {cells.ofImage.x, cells.ofImage.y, cellSide, directional_};
-  params.window = {cells.first.x, cells.first.y, cells.count.x, 0};
+  params.window = {cells.first.x, cells.first.y, cells.count.x, cells.count.y};
   passBlock_ = gl::Buffer(device, "light list pass", sizeof params);
   passBlock_.writeValue(params);
 }
@@ -78,27 +87,48 @@ std::optional<LightLists> LightLists::tryBuild(gl::Device& device, const LightLi
   return result;
 }
 
-// Fragments are those of the whole image, so that a cell's list is the same whatever the window.
 void LightLists::store(gl::Device& device, const LightListInputs& inputs, const Cells& cells,
                        const lists::Pass& pass) const {
-  const size_t proxies = order_.size() - static_cast<size_t>(directional_);
-  if (proxies == 0) return;
-  const gl::Framebuffer noTarget(cells.ofImage);
+  if (proxies() == 0) return;
+  gl::ShaderDefines defines = pass.defines;
+  gl::BufferTexture receivers;
+  if (inputs.receivers) {
+    defines.emplace_back("RECEIVERS", "1");
+    receivers = gl::BufferTexture(device, *inputs.receivers, gl::BufferFormat::RG32UI);
+    receivers.bind(TEXTURE_RECEIVER_DEPTHS);
+  }
   lights_.bindStorage(STORAGE_LIGHTS);
   inputs.view.bindUniform(UNIFORM_VIEW);
   passBlock_.bindUniform(UNIFORM_PASS);
+  const bool many = proxies() >= manyLights;
+  if (inputs.build.value_or(many ? LightListBuild::Compute : LightListBuild::Raster) ==
+      LightListBuild::Raster)
+    rasterise(device, cells, defines);
+  else
+    compute(device, cells, defines);
+}
+
+// Fragments are those of the whole image, so that a cell's list is the same whatever the window.
+void LightLists::rasterise(gl::Device& device, const Cells& cells, const gl::ShaderDefines& defines) const {
+  const gl::Framebuffer noTarget(cells.ofImage);
   gl::setDrawState(
-      {.program = &device.program({"lights/light_lists.vert", "lights/light_lists.frag"}, pass.defines),
+      {.program = &device.program({"lights/light_lists.vert", "lights/light_lists.frag"}, defines),
        .target = &noTarget,
        .viewport = {0, 0, cells.ofImage.x, cells.ofImage.y},
        .scissor = glm::ivec4(cells.first, cells.count),
        .depthClamp = true});
-  gl::drawGenerated(device, proxyVertices, proxies);
+  gl::drawGenerated(device, proxyVertices, proxies());
+}
+
+void LightLists::compute(gl::Device& device, const Cells& cells, const gl::ShaderDefines& defines) const {
+  const auto tiles = [](int count) { return gl::groupsFor(static_cast<size_t>(count), LIGHT_TILE_SIDE); };
+  gl::dispatch(device.program({"lights/light_lists.comp"}, defines),
+               {tiles(cells.count.x), tiles(cells.count.y), gl::groupsFor(proxies(), LIGHTS_OF_A_GROUP)});
 }
 
 void LightLists::bind() const {
   lights_.bindStorage(STORAGE_LIGHTS);
-  lists_.bind(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, TEXTURE_LIGHT_CELL_BACKS);
+  lists_.bind(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, 0);
 }
 
 }  // namespace sfumato::lights

@@ -248,13 +248,18 @@ size_t Lists::predict(gl::Device& device, size_t cells, const Draw& draw) {
 // first when `count` says so.
 size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, bool wholly, bool count,
                           ListStatistics& statistics) {
+  const bool tooManyCells = window.cells > 1 && limited() && bytesFor(window.cells, 0) > options_.budgetBytes;
+  if (tooManyCells && options_.onOverflow == OnOverflow::Window) {
+    fitting_ = mostCells();  // whatever they hold
+    return 0;
+  }
   reserveCells(device, window.cells);
   Counted counted;
   if (count) {
     counted = countNodes(device, window, draw);
     ++statistics.builds;
     const size_t allowed = nodesAllowed(device, reservedCells_);
-    if (counted.counters.total > allowed) {
+    if (counted.counters.total > allowed || tooManyCells) {
       unmetNodes_ = counted.counters.total;
       window.cells = cellsHolding(window.cells, allowed);
       fitting_ = window.cells;
@@ -480,11 +485,7 @@ ListStatistics Lists::build(gl::Device& device, const Draw& draw) {
 ListStatistics Lists::buildWindows(gl::Device& device, const Draw& draw,
                                    const std::function<void(const Window&)>& consume, size_t mostCells) {
   const bool wholly = options_.onOverflow == OnOverflow::Error;
-  if (limited() && !wholly) {
-    // No more than half of the budget for what every cell takes.
-    const size_t perCell = bytesOfCells(strategy_, LIST_SCAN_BLOCK) / LIST_SCAN_BLOCK + 1;
-    mostCells = std::clamp<size_t>(options_.budgetBytes / (2 * perCell), 1, mostCells);
-  }
+  if (limited() && !wholly) mostCells = std::min(mostCells, this->mostCells());
   ListStatistics all;
   size_t tried = mostCells;
   for (size_t first = 0; first < cells_;) {
@@ -513,6 +514,12 @@ size_t Lists::cellsToTry(const gl::Device& device, size_t built, size_t stored) 
                          static_cast<double>(nodesAllowed(device, reservedCells_)) /
                          static_cast<double>(std::max<size_t>(stored, 1));
   return static_cast<size_t>(std::min(1.25 * fitting, 1e15)) + 1;
+}
+
+// Of a window: no more than half of the budget for what every cell takes.
+size_t Lists::mostCells() const {
+  const size_t perCell = bytesOfCells(strategy_, LIST_SCAN_BLOCK) / LIST_SCAN_BLOCK + 1;
+  return std::max<size_t>(options_.budgetBytes / (2 * perCell), 1);
 }
 
 // Whether a count pass comes before the nodes are stored: always for `count`; for linked lists when the size

@@ -123,6 +123,7 @@ class Lists {
   Counted countNodes(gl::Device& device, const Window& window, const Draw& draw);
   Counted scan(gl::Device& device, size_t cells, RunOffset offset);
   size_t cellsHolding(size_t cells, size_t nodes) const;  // of the first cells, by their scanned counts
+  size_t mostCells() const;
   size_t cellsToTry(const gl::Device& device, size_t built, size_t stored) const;
   bool countsFirst() const;
   bool limited() const;

@@ -7,7 +7,10 @@
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/aovs_gpu.h"
+#include "pipelines/deep_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
+#include "pipelines/receivers_gpu.h"
+#include "pipelines/shadow_resolution.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
@@ -31,25 +34,14 @@ std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
 }
 
 gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const GeometryGpu& geometry,
-                                 size_t samples) {
+                                 size_t samples, int scatteringOctaves) {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)}};
   if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
+  if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
   return gl::joined(defines, volumes.defines());
 }
-
-struct ResolveInputs {
-  const gl::Buffer& view;
-  const GBuffer& gbuffer;
-  const lists::Lists& surfaces;
-  const lights::LightLists& lights;
-  const deepshadow::Maps& shadows;
-  const volumes::VolumesGpu& volumes;
-  const GeometryGpu& geometry;
-  const Quality& quality;
-  Tile window;
-};
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
 struct Split {
@@ -57,7 +49,31 @@ struct Split {
   size_t count = 0;   // of groups
 };
 
-void bindRayInputs(const ResolveInputs& inputs) {
+// Of a window of the image.
+struct SplitInputs {
+  const gl::Buffer& view;
+  const GBuffer& gbuffer;
+  const lists::Lists& surfaces;
+  Tile window;
+};
+
+struct ResolveInputs {
+  const gl::Buffer& view;
+  const GBuffer& gbuffer;
+  const lists::Lists& surfaces;
+  const Split& split;
+  const lights::LightLists& lights;
+  const deepshadow::Maps& shadows;
+  const volumes::VolumesGpu& volumes;
+  const GeometryGpu& geometry;
+  const Quality& quality;
+  Tile window;
+  bool countLookups;
+  size_t deepBytes;  // most that a deep image takes
+};
+
+template <typename Inputs>
+void bindRayInputs(const Inputs& inputs) {
   inputs.view.bindUniform(UNIFORM_VIEW);
   inputs.surfaces.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
   inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
@@ -69,12 +85,13 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
   shared::ResolveParams params{};
   params.march = {static_cast<float>(inputs.quality.stepVoxels),
                   static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
-  params.options = {1, inputs.quality.bilinearSmokeShadows ? 1 : 0, inputs.lights.directionalLights(), 0};
+  params.options = {1, tapsOf(inputs.quality.surfaceShadows) + 8 * tapsOf(inputs.quality.smokeShadows),
+                    inputs.lights.directionalLights(), 0};
   setSamples(params, inputs.gbuffer);
   return params;
 }
 
-Split splitPixels(gl::Device& device, const ResolveInputs& inputs) {
+Split splitPixels(gl::Device& device, const SplitInputs& inputs) {
   const size_t pixels = inputs.window.pixels();
   Split split;
   if (inputs.gbuffer.samplePositions.size() == 1) {
@@ -132,6 +149,25 @@ void readRays(const gl::Buffer& rays, const Split& split, size_t rayCount, const
         wanted->second);
 }
 
+// Adds what the window's pixels looked up; that of a split pixel is the sum over its samples.
+void readLookups(const gl::Buffer& lookups, const Split& split, size_t rayCount, const ResolveInputs& inputs,
+                 Lookups& all) {
+  const size_t pixels = inputs.window.pixels();
+  const size_t further = inputs.gbuffer.samplePositions.size() - 1;
+  const auto ofRays = lookups.readValues<glm::uvec2>(rayCount);
+  const auto groups = split.groups.readValues<uint32_t>(pixels);
+  for (size_t pixel = 0; pixel < pixels; ++pixel) {
+    glm::u64vec2 sum = ofRays[pixel];
+    if (groups[pixel] != 0)
+      for (size_t i = 0; i < further; ++i) sum += ofRays[pixels + (groups[pixel] - 1) * further + i];
+    all.lights += sum.x;
+    all.shadows += sum.y;
+    all.mostLights = std::max<size_t>(all.mostLights, sum.x);
+    all.mostShadows = std::max<size_t>(all.mostShadows, sum.y);
+  }
+  all.pixels += pixels;
+}
+
 size_t mostRays(const gl::Device& device) {
   return static_cast<size_t>(device.limits().storageBlockBytes) / sizeof(shared::RayState);
 }
@@ -144,42 +180,56 @@ size_t mostPixels(const gl::Device& device) {
 
 // Lights the window's pixels into the frame; false when their rays do not fit one buffer.
 bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
-  const Split split = splitPixels(device, inputs);
+  const Split& split = inputs.split;
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  const gl::Program& program =
-      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.volumes, inputs.geometry, samples));
+  gl::ShaderDefines defines =
+      resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
+  if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (frame.deep) defines.emplace_back("DEEP", "1");
+  const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
-  shared::ResolveParams params = resolveParams(inputs);
-  params.options.w = static_cast<int>(rayCount);
+  gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec2) : 0);
 
-  int dispatches = 0;
-  shared::ResolveCounters counted{};
-  do {
-    base::check(dispatches < maxResolveDispatches, "the resolve ends");
-    passBlock.writeValue(params);
-    counters.clear();
-    bindRayInputs(inputs);
-    passBlock.bindUniform(UNIFORM_PASS);
-    rays.bindStorage(STORAGE_RAYS);
-    split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
-    counters.bindStorage(STORAGE_COUNTERS);
-    inputs.lights.bind();
-    inputs.shadows.bind();
-    inputs.volumes.bind();
-    gl::dispatchLinear(program, rayCount);
-    gl::storageBarrier();
-    counted = counters.readValue<shared::ResolveCounters>();
-    frame.statistics.cutWalks += counted.boundHit;
-    ++dispatches;
-    params.options.x = 0;
-  } while (counted.unfinished > 0);
+  const auto walk = [&](size_t count) {
+    shared::ResolveParams params = resolveParams(inputs);
+    params.options.w = static_cast<int>(count);
+    int dispatches = 0;
+    shared::ResolveCounters counted{};
+    do {
+      base::check(dispatches < maxResolveDispatches, "the resolve ends");
+      passBlock.writeValue(params);
+      counters.clear();
+      bindRayInputs(inputs);
+      passBlock.bindUniform(UNIFORM_PASS);
+      rays.bindStorage(STORAGE_RAYS);
+      split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
+      counters.bindStorage(STORAGE_COUNTERS);
+      lookups.bindStorage(STORAGE_LOOKUPS);
+      inputs.lights.bind();
+      inputs.shadows.bind();
+      inputs.volumes.bind();
+      gl::dispatchLinear(program, count);
+      gl::storageBarrier();
+      counted = counters.readValue<shared::ResolveCounters>();
+      frame.statistics.cutWalks += counted.boundHit;
+      ++dispatches;
+      params.options.x = 0;
+    } while (counted.unfinished > 0);
+    frame.statistics.resolveDispatches += dispatches;
+  };
+  if (frame.deep)
+    recordDeep(device,
+               {inputs.window, split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1, walk},
+               inputs.deepBytes, *frame.deep);
+  else
+    walk(rayCount);
   frame.statistics.splitPixels += split.count;
-  frame.statistics.resolveDispatches += dispatches;
   readRays(rays, split, rayCount, inputs, frame);
+  if (inputs.countLookups) readLookups(lookups, split, rayCount, inputs, frame.statistics.lookups);
   return true;
 }
 
@@ -193,6 +243,8 @@ struct TileInputs {
   shared::ViewParams view;  // of the whole image
   int width = 0;
   int height = 0;
+  bool countLookups = false;
+  size_t deepBytes = 0;  // most that a deep image takes
 };
 
 // Draws a frame tile by tile.
@@ -202,6 +254,9 @@ class TilePainter {
       : device_(device),
         inputs_(inputs),
         faces_(shadowFacesOf(inputs.shadows)),
+        hasListedLights_(std::any_of(
+            inputs.lights.begin(), inputs.lights.end(),
+            [](const lights::Light& light) { return light.type != lights::LightType::Directional; })),
         windowPixels_(std::min(windowPixels, mostPixels(device))),
         view_(device, "camera view", sizeof(shared::ViewParams)),
         frame_(frame) {}
@@ -234,31 +289,39 @@ class TilePainter {
   bool tryDrawWindow(const GBuffer& gbuffer, const Tile& window) {
     const bool smallest = window.pixels() == 1;
     useView(gbuffer.tile, window);
+    const auto surfaces = [&] {
+      const Profiler::Scope time(device_.profiler(), "surface lists");
+      const SurfaceListInputs of{inputs_.geometry,     view_, gbuffer, inputs_.width, inputs_.height, window,
+                                 inputs_.quality.lists};
+      return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
+    }();
+    if (!surfaces) return false;
+    const Split split = [&] {
+      const Profiler::Scope time(device_.profiler(), "split pixels");
+      return splitPixels(device_, {view_, gbuffer, surfaces->lists, window});
+    }();
     const auto lightLists = [&] {
       const Profiler::Scope time(device_.profiler(), "light lists");
-      const lights::LightListInputs of{inputs_.lights,       faces_,         view_,
-                                       inputs_.width,        inputs_.height, window.corners(),
-                                       inputs_.quality.lists};
+      std::optional<gl::Buffer> receivers;
+      if (hasListedLights_)
+        receivers = receiverDepths(device_, {view_, gbuffer, surfaces->lists, split.groups, inputs_.volumes,
+                                             inputs_.width, inputs_.height, window});
+      const lights::LightListInputs of{inputs_.lights,
+                                       faces_,
+                                       view_,
+                                       inputs_.width,
+                                       inputs_.height,
+                                       window.corners(),
+                                       receivers ? &*receivers : nullptr,
+                                       remaining(surfaces->statistics.bytes)};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
     if (!lightLists) return false;
-    const auto surfaces = [&] {
-      const Profiler::Scope time(device_.profiler(), "surface lists");
-      const SurfaceListInputs of{inputs_.geometry,
-                                 view_,
-                                 gbuffer,
-                                 inputs_.width,
-                                 inputs_.height,
-                                 window,
-                                 remaining(lightLists->statistics().bytes)};
-      return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
-    }();
-    if (!surfaces) return false;
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
-                 {view_, gbuffer, surfaces->lists, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window},
+                 {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.volumes,
+                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepBytes},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -269,7 +332,7 @@ class TilePainter {
     return true;
   }
 
-  // What the lists of lights leave of the budget.
+  // What the lists of surfaces leave of the budget.
   lists::ListOptions remaining(size_t used) const {
     lists::ListOptions options = inputs_.quality.lists;
     if (options.budgetBytes != 0)
@@ -287,6 +350,7 @@ class TilePainter {
   gl::Device& device_;
   const TileInputs& inputs_;
   const std::vector<lights::ShadowFaces> faces_;
+  const bool hasListedLights_;
   size_t windowPixels_;  // that are tried at a time
   gl::Buffer view_;
   Frame& frame_;
@@ -295,17 +359,19 @@ class TilePainter {
 // The camera's view with clip planes close around the surfaces that are seen: it shows the same, and the
 // depth test tells more depths apart. `seen`: points whose hull holds those surfaces.
 shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
-                             const std::vector<glm::dvec3>& seen) {
+                             const std::vector<std::vector<glm::dvec3>>& seen) {
   shared::ViewParams view = scene::cameraView(camera, width, height);
-  if (seen.empty()) return view;
   const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
   double nearest = scene::infinity;
   double farthest = 0;
-  for (const glm::dvec3& p : seen) {
-    const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
+  for (const std::vector<glm::dvec3>& part : seen) {
+    for (const glm::dvec3& p : part) {
+      const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
   }
+  if (nearest > farthest) return view;
   constexpr double slack = 1e-3;
   constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
   scene::Camera tight = camera;
@@ -318,56 +384,81 @@ shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
-                                         std::span<const volumes::Medium> media)
-    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media) {
+                                         std::span<const volumes::Medium> media,
+                                         const volumes::GridOptions& gridOptions)
+    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media, gridOptions) {
   for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
   device.program({"pipelines/resolve.comp"},
-                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples)));
+                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples), 0));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
   const double aspect = static_cast<double>(width) / height;
-  const std::vector<glm::dvec3> seen = scene::visiblePoints(scene_, {}, camera, aspect);
-  const deepshadow::Maps shadows = buildShadows(camera, aspect, seen, quality);
+  const auto seen = scene::visibleParts(scene_, camera, aspect);
+  const deepshadow::Maps shadows = buildShadows(camera, width, height, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
+  const size_t deepBytes = std::min(options.deepBytes, mostDeepBytes());
+  if (options.deep) {
+    frame.deep = image::DeepImage(width, height);
+    frame.deep->view = deepView(scene::cameraView(camera, width, height));
+  }
+  for (const size_t light : options.deepShadows)
+    frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height};
+                          width,         height,  options.countLookups,
+                          deepBytes};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
     options.onTile();
   }
   frame.statistics.shadows = shadows.lights();
+  frame.statistics.shadowMaps = {.error = shadows.plan().error,
+                                 .lowered = shadows.lowered(),
+                                 .bytes = shadows.bytes(),
+                                 .predictedBytes = shadows.predictedBytes(),
+                                 .budgetBytes = shadows.budgetBytes()};
   frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = geometry_.triangles();
   return frame;
 }
 
-deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, double aspect,
-                                                   const std::vector<glm::dvec3>& seen,
+deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, int width, int height,
+                                                   const std::vector<std::vector<glm::dvec3>>& seen,
                                                    const Quality& quality) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  std::vector<glm::dvec3> receivers = scene::visiblePoints({}, mediaBoxes_, camera, aspect);
-  receivers.insert(receivers.end(), seen.begin(), seen.end());
+  std::vector<glm::dvec3> receivers;
+  std::vector<scene::Bounds> parts;
+  const double aspect = static_cast<double>(width) / height;
+  for (const auto& all : {scene::visibleParts(mediaBoxes_, camera, aspect), seen}) {
+    for (const std::vector<glm::dvec3>& part : all) {
+      receivers.insert(receivers.end(), part.begin(), part.end());
+      parts.push_back(scene::boundsOf(part));
+    }
+  }
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce(),
                               .notSelf = geometry_.hasNotSelf(),
                               .defines = geometry_.defines()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
-  return deepshadow::Maps(device_, {.lights = scene_.lights,
-                                    .casters = casters,
-                                    .volumes = volumes_,
-                                    .receivers = receivers,
-                                    .castingPoints = castingPoints,
-                                    .resolution = quality.shadowResolution,
-                                    .stepVoxels = quality.stepVoxels,
-                                    .error = quality.shadowError,
-                                    .lists = quality.lists});
+  return deepshadow::Maps(
+      device_,
+      {.lights = scene_.lights,
+       .casters = casters,
+       .volumes = volumes_,
+       .receivers = receivers,
+       .castingPoints = castingPoints,
+       .plan = {shadowResolutions(scene_.lights, parts, camera, width, height, quality), quality.shadowError},
+       .budget = {.bytes = quality.shadowMemory,
+                  .lowerResolution = !quality.exactShadowResolution,
+                  .loosenError = !quality.exactShadowError},
+       .stepVoxels = quality.stepVoxels,
+       .lists = quality.lists});
 }
 
 }  // namespace sfumato::pipelines

@@ -8,6 +8,7 @@
 #include "lights/light_reach.h"
 #include "lists/list_bytes.h"
 #include "pipelines/projected_area.h"
+#include "pipelines/shadow_resolution.h"
 #include "pipelines/tiles.h"
 #include "scene/camera_view.h"
 #include "scene/default_set.h"
@@ -106,7 +107,7 @@ class Predictor {
     const auto cells =
         static_cast<size_t>(lights::cellsAlong(width)) * static_cast<size_t>(lights::cellsAlong(height));
     const size_t tiles = tilesOf(width, height).size();
-    return lists(cells, nodes, (cells - 1) / tiles + 1, sizeof(float));
+    return lists(cells, nodes, (cells - 1) / tiles + 1, 0);
   }
 
   bool hasCasters() const { return !casters_.empty(); }
@@ -168,17 +169,35 @@ glm::dmat4 boxOf(const scene::Bounds& bounds) {
   return worldFromUnit;
 }
 
-// What directional lights look at: see pipelines/linked_lists_gpu.
-std::vector<dvec3> receiversOf(const scene::Scene& scene, const std::vector<glm::dmat4>& boxes,
-                               const scene::Camera& camera, double aspect) {
+// What is seen, as points whose hull holds it and as boxes around its parts: pipelines/linked_lists_gpu has
+// the same of every triangle.
+struct Seen {
+  std::vector<dvec3> points;
+  std::vector<scene::Bounds> parts;
+
+  void add(const std::vector<std::vector<dvec3>>& all) {
+    for (const std::vector<dvec3>& part : all) {
+      points.insert(points.end(), part.begin(), part.end());
+      parts.push_back(scene::boundsOf(part));
+    }
+  }
+};
+
+Seen seenOf(const scene::Scene& scene, const std::vector<glm::dmat4>& mediaBoxes, const scene::Camera& camera,
+            double aspect) {
+  Seen seen;
+  seen.add(scene::visibleParts(mediaBoxes, camera, aspect));
   size_t triangles = 0;
   for (const scene::Instance& instance : scene.instances)
     triangles += scene.meshes[static_cast<size_t>(instance.mesh)].indices.size() / 3;
-  if (triangles <= mostForHull) return scene::visiblePoints(scene, boxes, camera, aspect);
-  std::vector<glm::dmat4> all = scene::boundingBoxes(scene);
-  if (all.size() > mostBoxes) all = {boxOf(scene::boundsOf(scene::boundingPoints(scene, {})))};
-  all.insert(all.end(), boxes.begin(), boxes.end());
-  return scene::visiblePoints({}, all, camera, aspect);
+  if (triangles <= mostForHull) {
+    seen.add(scene::visibleParts(scene, camera, aspect));
+    return seen;
+  }
+  std::vector<glm::dmat4> boxes = scene::boundingBoxes(scene);
+  if (boxes.size() > mostBoxes) boxes = {boxOf(scene::boundsOf(scene::boundingPoints(scene, {})))};
+  seen.add(scene::visibleParts(boxes, camera, aspect));
+  return seen;
 }
 
 }  // namespace
@@ -201,20 +220,16 @@ ListPrediction predictLists(const scene::Scene& scene, std::span<const volumes::
   const Predictor predictor(scene, quality);
   std::vector<glm::dmat4> boxes;
   for (const volumes::Medium& medium : media) boxes.push_back(volumes::worldFromUnit(medium));
-  const auto directional = [](const scene::Light& light) { return light.type == LightType::Directional; };
-  std::vector<dvec3> receivers;
-  std::vector<dvec3> casting;
-  if (std::any_of(scene.lights.begin(), scene.lights.end(), directional)) {
-    receivers = receiversOf(scene, boxes, camera, static_cast<double>(width) / height);
-    casting = scene::boundingPoints(scene, boxes);
-  }
-
+  const Seen seen = seenOf(scene, boxes, camera, static_cast<double>(width) / height);
+  const std::vector<dvec3> casting = scene::boundingPoints(scene, boxes);
+  const std::vector<int> resolutions =
+      shadowResolutions(scene.lights, seen.parts, camera, width, height, quality);
   std::vector<std::vector<FaceProjection>> faces;
   size_t views = 1;
-  for (const scene::Light& light : scene.lights) {
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
     faces.emplace_back();
-    if (!light.castsShadow || !predictor.hasCasters()) continue;
-    faces.back() = scene::facesOf(light, quality.shadowResolution, receivers, casting);
+    if (resolutions[i] == 0 || !scene.lights[i].castsShadow || !predictor.hasCasters()) continue;
+    faces.back() = scene::facesOf(scene.lights[i], resolutions[i], seen.points, casting);
     views += faces.back().size();
   }
   const size_t triangles = std::clamp(mostTriangles / views, leastOfView, mostOfView);

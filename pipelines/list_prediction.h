@@ -31,7 +31,8 @@ struct ListPrediction {
 // Fragments are counted by the area of triangles in the image or shadow map, clipped to it. What opaque
 // surfaces hide, and what textures cut out, is counted as well: the true number of nodes of surfaces and
 // shadows is at most about this. Of meshes with very many triangles a sample is looked at. Lights are counted
-// cell by cell, or by a sample of cells where they cover many.
+// cell by cell, or by a sample of cells where they cover many, also in cells that show nothing to light.
+// Shadow maps are those of the quality, whatever memory they may take.
 ListPrediction predictLists(const scene::Scene& scene, std::span<const volumes::Medium> media,
                             const scene::Camera& camera, int width, int height, const Quality& quality);
 

@@ -245,7 +245,7 @@ class Tracer {
     for (const auto& [object, first] : firsts) transmittance *= first.passing;
     if (isNegligible(transmittance)) return glm::dvec3(0);
     return transmittance *
-           std::exp(-volumes::opticalDepth(media_, pWorld, ray.at(distance), options_.shadowStepVoxels));
+           glm::exp(-volumes::opticalDepth(media_, pWorld, ray.at(distance), options_.shadowStepVoxels));
   }
 
   // What a surface lets through of light that comes along a direction, or against it.
@@ -301,7 +301,7 @@ class Tracer {
     const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * voxel));
     const double longest = (tMax - tMin) / steps;
     const double shortest = longest / 256;
-    std::vector<double> extinctions;  // of each medium
+    std::vector<glm::dvec3> extinctions;  // of each medium
     double t = tMin;
     while (t < tMax && !isNegligible(transmittance)) {
       // Close to a lamp its irradiance changes within a voxel.
@@ -310,17 +310,25 @@ class Tracer {
       const glm::dvec3 p = ray.at(t + 0.5 * length);
       t += length;
       extinctions.clear();
-      double extinction = 0;
+      glm::dvec3 extinction(0);
       for (const Medium* medium : media) {
         extinctions.push_back(volumes::extinctionAt(*medium, p));
         extinction += extinctions.back();
       }
-      if (extinction <= 0) continue;
-      const double passing = std::exp(-extinction * length);
+      if (extinction == glm::dvec3(0)) continue;
       radiance +=
-          transmittance * (1 - passing) / extinction * scattered(media, extinctions, p, ray.direction);
-      transmittance *= passing;
+          transmittance * seenLength(extinction, length) * scattered(media, extinctions, p, ray.direction);
+      transmittance *= glm::exp(-extinction * length);
     }
+  }
+
+  // Integral of exp(-extinction s) over the length, per channel.
+  static glm::dvec3 seenLength(const glm::dvec3& extinction, double length) {
+    glm::dvec3 seen(length);
+    for (int channel = 0; channel < 3; ++channel)
+      if (extinction[channel] > 0)
+        seen[channel] = -std::expm1(-extinction[channel] * length) / extinction[channel];
+    return seen;
   }
 
   // To the nearest light that stands somewhere.
@@ -333,17 +341,19 @@ class Tracer {
   }
 
   // Light scattered at a point of the media to where the ray comes from, per metre.
-  glm::dvec3 scattered(std::span<const Medium* const> media, std::span<const double> extinctions,
+  glm::dvec3 scattered(std::span<const Medium* const> media, std::span<const glm::dvec3> extinctions,
                        const glm::dvec3& pWorld, const glm::dvec3& direction) const {
     glm::dvec3 sum(0);
     for (const Light& light : scene_.lights) {
       const Illumination arriving = illuminate(light, pWorld);
       if (arriving.irradiance == glm::dvec3(0)) continue;
+      const glm::dvec3 passing = shadowTransmittance(light, pWorld, arriving, nullptr);
       const double cosine = glm::dot(arriving.toLight, direction);  // both the other way: travelling light
       glm::dvec3 turned(0);
       for (size_t i = 0; i < media.size(); ++i)
-        turned += extinctions[i] * media[i]->albedo * volumes::phaseHenyeyGreenstein(cosine, media[i]->g);
-      sum += turned * arriving.irradiance * shadowTransmittance(light, pWorld, arriving, nullptr);
+        turned += extinctions[i] * media[i]->albedo *
+                  volumes::turnedLight(*media[i], cosine, passing, options_.scatteringOctaves);
+      sum += turned * arriving.irradiance;
     }
     return sum;
   }

@@ -19,6 +19,7 @@ struct ReferenceOptions {
   int samples = 1;
   double stepVoxels = 0.5;  // of the camera's march, in voxels
   double shadowStepVoxels = 0.5;
+  int scatteringOctaves = 0;  // of multiple scattering, as Quality::scatteringOctaves
   bool showProgress = false;
   AovSet aovs;  // none that isOfLists()
 };

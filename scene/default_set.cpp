@@ -38,14 +38,13 @@ std::vector<double> columns(const volumes::DensityGrid& grid, int axis) {
   const int beyond = (axis + 2) % 3;
   const auto width = static_cast<size_t>(grid.size[across]);
   std::vector<double> sums(width * static_cast<size_t>(grid.size[beyond]));
-  size_t i = 0;
-  for (int z = 0; z < grid.size.z; ++z)
-    for (int y = 0; y < grid.size.y; ++y)
-      for (int x = 0; x < grid.size.x; ++x) {
-        const ivec3 voxel(x, y, z);
-        sums[static_cast<size_t>(voxel[beyond]) * width + static_cast<size_t>(voxel[across])] +=
-            grid.values[i++];
-      }
+  volumes::forEachRow(grid, [&](ivec3 voxel, std::span<const float> row) {
+    for (const float value : row) {
+      if (value != 0)
+        sums[static_cast<size_t>(voxel[beyond]) * width + static_cast<size_t>(voxel[across])] += value;
+      ++voxel.x;
+    }
+  });
   std::erase(sums, 0.0);
   return sums;
 }
@@ -166,6 +165,11 @@ void addDefaultSet(Scene& scene, const Bounds& smoke, double yfov, double aspect
   scene.lights.push_back(directionalLight("key", {-0.85, 0.75, 0.16}, {19, 15.8, 12}));
   scene.lights.push_back(directionalLight("fill", {0.75, 0.45, 0.8}, {1, 1.4, 2.1}));
   scene.cameras.push_back(camera);
+}
+
+void addDefaultLights(Scene& scene) {
+  scene.lights.push_back(directionalLight("key", {-0.5, 1, 0.6}, {4.4, 3.9, 3.3}));
+  scene.lights.push_back(directionalLight("fill", {0.8, 0.4, 0.5}, {0.5, 0.65, 0.85}));
 }
 
 double fittingScale(const volumes::Medium& medium) {

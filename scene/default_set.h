@@ -34,6 +34,10 @@ Camera framingCamera(const Bounds& bounds, double yfov, double aspect);
 // to the box. See framingCamera() for an empty one.
 void addDefaultSet(Scene& scene, const Bounds& smoke, double yfov, double aspect);
 
+// For a set without light: a warm directional light from the upper left front, and a cool, weak one from the
+// right.
+void addDefaultLights(Scene& scene);
+
 // Of fittingScale().
 constexpr double fittingOpticalDepth = 8;
 

@@ -1326,10 +1326,13 @@ void readCone(const Faults& faults, const tinygltf::SpotLight& spot, Light& ligh
   light.outerCone = std::min(light.outerCone, largest);
 }
 
+// Extras "shadow" of the light, and before them of its node.
 Light readLight(const Faults& faults, const tinygltf::Light& from, const NodeGraph::Placed& placed,
-                const std::string& nodeName, const std::string& where) {
+                const tinygltf::Node& node, const std::string& where) {
   Light light;
-  light.name = nameOf(nodeName, from.name);
+  light.name = nameOf(node.name, from.name);
+  light.castsShadow = truth(faults, from.extras, "shadow", light.castsShadow, where);
+  light.castsShadow = truth(faults, node.extras, "shadow", light.castsShadow, where);
   light.position = glm::dvec3(placed.worldFromNode[3]);
   checkLength(faults, from.color, 3, where, "light colour");
   for (int c = 0; c < 3; ++c) {
@@ -1365,6 +1368,8 @@ VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm:
   volume.gridName = text(faults, extras, "volume_grid", where);
   volume.scale =
       faults.notNegative(number(faults, extras, "volume_scale", volume.scale, where), where, "volume_scale");
+  volume.extinctionColour = numbers(faults, extras, "volume_extinction", volume.extinctionColour, where);
+  for (int c = 0; c < 3; ++c) faults.inRange(volume.extinctionColour[c], 0, 1e6, where, "volume_extinction");
   volume.albedo = numbers(faults, extras, "volume_albedo", volume.albedo, where);
   for (int c = 0; c < 3; ++c) faults.inRange(volume.albedo[c], 0, 1, where, "volume_albedo");
   volume.g = number(faults, extras, "volume_g", volume.g, where);
@@ -1400,7 +1405,7 @@ Scene convert(Model model, const fs::path& path, std::optional<double> seconds, 
     if (const Value* lights = find(node.extensions, "KHR_lights_punctual")) {
       const int light = index(faults, *lights, "light", -1, where);
       scene.lights.push_back(
-          readLight(faults, faults.at(model.lights, light, where, "light"), placed, node.name, where));
+          readLight(faults, faults.at(model.lights, light, where, "light"), placed, node, where));
     }
     if (node.extras.Has("volume"))
       scene.volumes.push_back(

@@ -14,6 +14,7 @@ std::vector<volumes::Medium> readMedia(const Scene& scene) {
     medium.grid = volumes::readVdb(placement.file, placement.gridName);
     medium.worldFromIndex = placement.worldFromGridWorld * medium.grid.worldFromIndex;
     medium.scale = placement.scale;
+    medium.extinctionColour = placement.extinctionColour;
     medium.albedo = placement.albedo;
     medium.g = placement.g;
     if (!std::isnormal(glm::determinant(glm::dmat3(medium.worldFromIndex))))

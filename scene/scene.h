@@ -109,6 +109,7 @@ struct VolumePlacement {
   std::string file;                    // path, already relative to the working directory
   std::string gridName;                // empty: the file's only float grid, or "density"
   double scale = 1;                    // sigma_t per unit of density, 1/m, >= 0
+  glm::dvec3 extinctionColour{1};      // what sigma_t is multiplied by per channel, each >= 0
   glm::dvec3 albedo{0.9};              // each in [0, 1]
   double g = 0;                        // Henyey-Greenstein, in (-1, 1)
   glm::dmat4 worldFromGridWorld{1.0};  // the node's transform; the grid's own transform stands to its right

@@ -63,11 +63,11 @@ void appendClipped(Polygon polygon, const std::vector<dvec4>& planes, std::vecto
 
 }  // namespace
 
-std::vector<dvec3> visiblePoints(const Scene& scene, const std::vector<dmat4>& worldFromUnit,
-                                 const Camera& camera, double aspect) {
+std::vector<std::vector<dvec3>> visibleParts(const Scene& scene, const Camera& camera, double aspect) {
   const std::vector<dvec4> planes = frustumPlanes(camera, aspect);
-  std::vector<dvec3> points;
+  std::vector<std::vector<dvec3>> parts;
   for (const Instance& instance : scene.instances) {
+    std::vector<dvec3>& points = parts.emplace_back();
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     const auto world = [&](size_t index) {
       return dvec3(instance.worldFromObject * dvec4(dvec3(mesh.vertices[mesh.indices[index]].position), 1.0));
@@ -75,9 +75,17 @@ std::vector<dvec3> visiblePoints(const Scene& scene, const std::vector<dmat4>& w
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
       appendClipped({world(i), world(i + 1), world(i + 2)}, planes, points);
   }
+  return parts;
+}
+
+std::vector<std::vector<dvec3>> visibleParts(const std::vector<dmat4>& worldFromUnit, const Camera& camera,
+                                             double aspect) {
+  const std::vector<dvec4> planes = frustumPlanes(camera, aspect);
   constexpr size_t quads[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                   {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+  std::vector<std::vector<dvec3>> parts;
   for (const dmat4& box : worldFromUnit) {
+    std::vector<dvec3>& points = parts.emplace_back();
     const auto corner = corners(box);
     for (const auto& quad : quads)
       appendClipped({corner[quad[0]], corner[quad[1]], corner[quad[2]], corner[quad[3]]}, planes, points);
@@ -89,6 +97,14 @@ std::vector<dvec3> visiblePoints(const Scene& scene, const std::vector<dmat4>& w
         points.push_back(p);
     }
   }
+  return parts;
+}
+
+std::vector<dvec3> visiblePoints(const Scene& scene, const std::vector<dmat4>& worldFromUnit,
+                                 const Camera& camera, double aspect) {
+  std::vector<dvec3> points;
+  for (const auto& parts : {visibleParts(scene, camera, aspect), visibleParts(worldFromUnit, camera, aspect)})
+    for (const std::vector<dvec3>& part : parts) points.insert(points.end(), part.begin(), part.end());
   return points;
 }
 

@@ -7,9 +7,13 @@
 
 namespace sfumato::scene {
 
-// Corners of every piece of the scene's triangles and of the boxes (worldFromUnit: images of the unit cube)
-// that lies inside the camera's frustum at the given aspect (width / height). Their hull holds everything
-// that is seen.
+// Corners of every piece of the scene's triangles that lies inside the camera's frustum at the given aspect
+// (width / height), instance by instance: the hull of each holds what is seen of it.
+std::vector<std::vector<glm::dvec3>> visibleParts(const Scene& scene, const Camera& camera, double aspect);
+// The same of boxes (worldFromUnit: images of the unit cube), whose insides are seen, too.
+std::vector<std::vector<glm::dvec3>> visibleParts(const std::vector<glm::dmat4>& worldFromUnit,
+                                                  const Camera& camera, double aspect);
+// All of them together. Their hull holds everything that is seen.
 std::vector<glm::dvec3> visiblePoints(const Scene& scene, const std::vector<glm::dmat4>& worldFromUnit,
                                       const Camera& camera, double aspect);
 

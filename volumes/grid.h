@@ -1,34 +1,90 @@
-// Density on a regular lattice, dense in memory, and the medium that it makes.
+// Density on a regular lattice, dense in memory or in bricks, and the medium that it makes.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace sfumato::volumes {
 
 // The value of voxel (i,j,k) stands at index position (i,j,k), trilinear between; outside the box it is 0.
-// A margin of one zero voxel on every side keeps that true up to the box.
+// A margin of one zero voxel on every side keeps that true up to the box. Values are finite and >= 0; in
+// order of x first, then y, then z.
 struct DensityGrid {
+  // What is mostly empty: cubes of brickSide^3 voxels, of which those that hold only zeros are left out.
+  static constexpr int brickSide = 8;
+  struct Bricks {
+    std::vector<uint32_t> map;  // for each brick, also in order of x, y, z: 0, or its number plus 1
+    std::vector<float> values;  // brick by brick
+  };
+
   std::string name;
-  glm::ivec3 origin{0};            // index position of values[0]
-  glm::ivec3 size{0};              // voxels along x, y, z, margin included
-  std::vector<float> values;       // x fastest, then y, then z; finite and >= 0
+  glm::ivec3 origin{0};       // index position of the first voxel
+  glm::ivec3 size{0};         // voxels along x, y, z, margin included
+  std::vector<float> values;  // of all voxels, or none where they are in bricks
+  Bricks bricks;
+  bool half = false;               // every value is one of a 16-bit float
   glm::dmat4 worldFromIndex{1.0};  // the grid's own affine transform: metres from index positions
 
-  size_t valueIndex(int x, int y, int z) const {
-    return (static_cast<size_t>(z) * static_cast<size_t>(size.y) + static_cast<size_t>(y)) *
+  bool dense() const { return bricks.map.empty(); }
+  size_t bytes() const {
+    return (values.size() + bricks.values.size()) * sizeof(float) + bricks.map.size() * sizeof(uint32_t);
+  }
+
+  // Places of a voxel, counted from the first one: in `values`, of its brick in the map, and in that brick.
+  size_t valueIndex(int x, int y, int z) const { return place({x, y, z}, size); }
+  size_t brickIndex(const glm::ivec3& voxel) const { return place(voxel / brickSide, brickCount()); }
+  static size_t indexInBrick(const glm::ivec3& voxel) {
+    return place(voxel % brickSide, glm::ivec3(brickSide));
+  }
+  glm::ivec3 brickCount() const { return (size + brickSide - 1) / brickSide; }
+  static constexpr size_t valuesInBrick = size_t{brickSide} * brickSide * brickSide;
+
+  float value(const glm::ivec3& voxel) const {
+    if (dense()) return values[valueIndex(voxel.x, voxel.y, voxel.z)];
+    const uint32_t brick = bricks.map[brickIndex(voxel)];
+    return brick == 0 ? 0.f : bricks.values[(brick - 1) * valuesInBrick + indexInBrick(voxel)];
+  }
+
+ private:
+  static size_t place(const glm::ivec3& p, const glm::ivec3& size) {
+    return (static_cast<size_t>(p.z) * static_cast<size_t>(size.y) + static_cast<size_t>(p.y)) *
                static_cast<size_t>(size.x) +
-           static_cast<size_t>(x);
+           static_cast<size_t>(p.x);
   }
 };
 
-// sigma_t = density * scale [1/m], scattering albedo per channel, Henyey-Greenstein g.
+// Calls visit(voxel, values) for the rows along x of which the grid consists; voxels are counted from the
+// first one. Only zeros are left out.
+template <typename Visit>
+void forEachRow(const DensityGrid& grid, const Visit& visit) {
+  const auto forBox = [&](const glm::ivec3& low, const glm::ivec3& size, const float* values) {
+    const auto count = static_cast<size_t>(size.x);
+    for (int z = 0; z < size.z; ++z)
+      for (int y = 0; y < size.y; ++y, values += count)
+        visit(low + glm::ivec3(0, y, z), std::span(values, count));
+  };
+  if (grid.dense()) return forBox(glm::ivec3(0), grid.size, grid.values.data());
+  const glm::ivec3 count = grid.brickCount();
+  const uint32_t* brick = grid.bricks.map.data();
+  for (int z = 0; z < count.z; ++z)
+    for (int y = 0; y < count.y; ++y)
+      for (int x = 0; x < count.x; ++x, ++brick)
+        if (*brick != 0)
+          forBox(glm::ivec3(x, y, z) * DensityGrid::brickSide, glm::ivec3(DensityGrid::brickSide),
+                 grid.bricks.values.data() + (*brick - 1) * DensityGrid::valuesInBrick);
+}
+
+// sigma_t = density * scale * extinctionColour [1/m] per channel, scattering albedo per channel,
+// Henyey-Greenstein g.
 struct Medium {
   DensityGrid grid;
   glm::dmat4 worldFromIndex{1.0};  // placement times the grid's own transform
   double scale = 1;                // 1/m per unit of density
+  glm::dvec3 extinctionColour{1};  // each >= 0
   glm::dvec3 albedo{0.9};
   double g = 0;
 };

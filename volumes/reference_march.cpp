@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shaders/shared/volumes.h"
+
 namespace sfumato::volumes {
 
 namespace {
@@ -40,18 +42,19 @@ bool clipToBox(const DensityGrid& grid, const IndexLine& line, double& tMin, dou
   return tMin <= tMax;
 }
 
-double opticalDepth(const Medium& medium, const glm::dvec3& from, const glm::dvec3& to, double stepVoxels) {
+glm::dvec3 opticalDepth(const Medium& medium, const glm::dvec3& from, const glm::dvec3& to,
+                        double stepVoxels) {
   const IndexLine line = indexLine(medium, from, to - from);
   double tMin = 0;
   double tMax = 1;
-  if (!clipToBox(medium.grid, line, tMin, tMax)) return 0;
+  if (!clipToBox(medium.grid, line, tMin, tMax)) return glm::dvec3(0);
 
   const double length = (tMax - tMin) * glm::distance(from, to);
   const auto steps = std::ceil(length / (stepVoxels * voxelSize(medium.worldFromIndex)));
   double sum = 0;
   for (double step = 0; step < steps; ++step)
     sum += densityAt(medium.grid, line.at(tMin + (tMax - tMin) * (step + 0.5) / steps));
-  return steps > 0 ? sum * medium.scale * length / steps : 0;
+  return steps > 0 ? sum * medium.scale * length / steps * medium.extinctionColour : glm::dvec3(0);
 }
 
 }  // namespace
@@ -67,15 +70,16 @@ double densityAt(const DensityGrid& grid, const glm::dvec3& pIndex) {
   const glm::ivec3 high = glm::min(low + 1, last);
   const glm::dvec3 f = p - glm::dvec3(low);
   const auto alongX = [&](int y, int z) {
-    return glm::mix(static_cast<double>(grid.values[grid.valueIndex(low.x, y, z)]),
-                    static_cast<double>(grid.values[grid.valueIndex(high.x, y, z)]), f.x);
+    return glm::mix(static_cast<double>(grid.value({low.x, y, z})),
+                    static_cast<double>(grid.value({high.x, y, z})), f.x);
   };
   const auto alongXY = [&](int z) { return glm::mix(alongX(low.y, z), alongX(high.y, z), f.y); };
   return glm::mix(alongXY(low.z), alongXY(high.z), f.z);
 }
 
-double extinctionAt(const Medium& medium, const glm::dvec3& pWorld) {
-  return medium.scale * densityAt(medium.grid, indexLine(medium, pWorld, glm::dvec3(0)).start);
+glm::dvec3 extinctionAt(const Medium& medium, const glm::dvec3& pWorld) {
+  const double density = densityAt(medium.grid, indexLine(medium, pWorld, glm::dvec3(0)).start);
+  return medium.scale * density * medium.extinctionColour;
 }
 
 bool clipToMedium(const Medium& medium, const glm::dvec3& pWorld, const glm::dvec3& direction, double& tMin,
@@ -83,9 +87,9 @@ bool clipToMedium(const Medium& medium, const glm::dvec3& pWorld, const glm::dve
   return clipToBox(medium.grid, indexLine(medium, pWorld, direction), tMin, tMax);
 }
 
-double opticalDepth(std::span<const Medium> media, const glm::dvec3& from, const glm::dvec3& to,
-                    double stepVoxels) {
-  double sum = 0;
+glm::dvec3 opticalDepth(std::span<const Medium> media, const glm::dvec3& from, const glm::dvec3& to,
+                        double stepVoxels) {
+  glm::dvec3 sum(0);
   for (const Medium& medium : media) sum += opticalDepth(medium, from, to, stepVoxels);
   return sum;
 }
@@ -93,6 +97,17 @@ double opticalDepth(std::span<const Medium> media, const glm::dvec3& from, const
 double phaseHenyeyGreenstein(double cosine, double g) {
   const double base = 1 + g * g - 2 * g * cosine;
   return (1 - g * g) / (4 * std::numbers::pi * base * std::sqrt(base));
+}
+
+glm::dvec3 turnedLight(const Medium& medium, double cosine, const glm::dvec3& passing, int octaves) {
+  const auto arriving = [&](int octave) {
+    return glm::pow(passing, glm::dvec3(std::pow(OCTAVE_DEPTH, octave)));
+  };
+  glm::dvec3 sum = passing * phaseHenyeyGreenstein(cosine, medium.g);
+  for (int i = 1; i <= octaves; ++i)
+    sum += glm::pow(OCTAVE_KEPT * medium.albedo, glm::dvec3(i)) * (arriving(i) - arriving(i - 1)) *
+           phaseHenyeyGreenstein(cosine, std::pow(OCTAVE_PHASE, i) * medium.g);
+  return sum;
 }
 
 }  // namespace sfumato::volumes

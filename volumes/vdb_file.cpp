@@ -85,6 +85,15 @@ void readTree(openvdb::FloatTree& tree, std::span<const std::byte> file, const V
   tree.readBuffers(stream, layout.half);
 }
 
+// A box is dense up to this, and beyond where bricks would take no less than a part of it.
+constexpr size_t alwaysDenseBytes = size_t{64} << 20;
+constexpr double mostDenseFactor = 2;
+
+template <typename Vector>
+auto product(const Vector& v) {
+  return v.x * v.y * v.z;
+}
+
 // A box of voxels that grows; 64-bit, as active tiles can make it huge.
 struct Box {
   glm::i64vec3 low{std::numeric_limits<int64_t>::max()};
@@ -115,33 +124,94 @@ Box checkedBox(const openvdb::FloatTree& tree, const std::string& place) {
   return box;
 }
 
-void fill(DensityGrid& grid, const openvdb::CoordBBox& box, float density) {
-  const openvdb::Coord low = box.min(), high = box.max();
-  const auto count = static_cast<size_t>(high.x() - low.x() + 1);
-  for (int z = low.z(); z <= high.z(); ++z)
-    for (int y = low.y(); y <= high.y(); ++y) {
-      const size_t first = grid.valueIndex(low.x() - grid.origin.x, y - grid.origin.y, z - grid.origin.z);
-      std::fill_n(grid.values.begin() + static_cast<std::ptrdiff_t>(first), count, density);
-    }
+// Calls visit(low, high, density) for the boxes of equal active values other than 0; voxels of `grid`.
+template <typename Visit>
+void forEachBox(const openvdb::FloatTree& tree, const DensityGrid& grid, const Visit& visit) {
+  const auto voxel = [&](const openvdb::Coord& at) {
+    return glm::ivec3(at.x(), at.y(), at.z()) - grid.origin;
+  };
+  for (auto value = tree.cbeginValueOn(); value; ++value) {
+    if (*value == 0) continue;
+    const openvdb::CoordBBox box = value.getBoundingBox();
+    visit(voxel(box.min()), voxel(box.max()), *value);
+  }
 }
 
-DensityGrid toDense(const openvdb::FloatTree& tree, const std::string& place, size_t maxBytes) {
+void fillDense(const openvdb::FloatTree& tree, DensityGrid& grid) {
+  grid.values.assign(grid.valueIndex(0, 0, grid.size.z), 0.f);
+  forEachBox(tree, grid, [&](const glm::ivec3& low, const glm::ivec3& high, float density) {
+    const auto count = static_cast<size_t>(high.x - low.x + 1);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        std::fill_n(&grid.values[grid.valueIndex(low.x, y, z)], count, density);
+  });
+}
+
+[[noreturn]] void failTooLarge(const std::string& place, const char* what, const glm::i64vec3& size,
+                               double bytes, size_t maxBytes) {
+  fail(ExitCode::Memory,
+       "{}: {} a box of {} x {} x {} voxels takes {:.1f} MiB, more than the {:.1f} MiB allowed: crop it, or "
+       "resample it to larger voxels",
+       place, what, size.x, size.y, size.z, bytes / 0x1p20, static_cast<double>(maxBytes) / 0x1p20);
+}
+
+// Numbers the bricks that hold anything; returns how many.
+size_t numberBricks(const openvdb::FloatTree& tree, DensityGrid& grid) {
+  grid.bricks.map.assign(product(glm::i64vec3(grid.brickCount())), 0);
+  size_t count = 0;
+  forEachBox(tree, grid, [&](const glm::ivec3& low, const glm::ivec3& high, float) {
+    const glm::ivec3 first = low / DensityGrid::brickSide, last = high / DensityGrid::brickSide;
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+          uint32_t& brick = grid.bricks.map[grid.brickIndex(glm::ivec3(x, y, z) * DensityGrid::brickSide)];
+          if (brick == 0) brick = static_cast<uint32_t>(++count);
+        }
+  });
+  return count;
+}
+
+void fillBricks(const openvdb::FloatTree& tree, DensityGrid& grid, size_t count) {
+  grid.bricks.values.assign(count * DensityGrid::valuesInBrick, 0.f);
+  forEachBox(tree, grid, [&](const glm::ivec3& low, const glm::ivec3& high, float density) {
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const glm::ivec3 voxel(x, y, z);
+          const size_t brick = grid.bricks.map[grid.brickIndex(voxel)] - 1;
+          grid.bricks.values[brick * DensityGrid::valuesInBrick + DensityGrid::indexInBrick(voxel)] = density;
+        }
+  });
+}
+
+DensityGrid toGrid(const openvdb::FloatTree& tree, const std::string& place, size_t maxBytes) {
   const Box box = checkedBox(tree, place);
   const glm::i64vec3 size = box.high - box.low + int64_t{3};  // with the margin
-  const double bytes =
-      static_cast<double>(size.x) * static_cast<double>(size.y) * static_cast<double>(size.z) * sizeof(float);
-  if (bytes > static_cast<double>(maxBytes))
-    fail(ExitCode::Memory,
-         "{} takes {:.1f} MiB as a dense box of {} x {} x {} voxels, more than the {:.1f} "
-         "MiB allowed: crop it, or resample it to larger voxels",
-         place, bytes / 0x1p20, size.x, size.y, size.z, static_cast<double>(maxBytes) / 0x1p20);
+  const double denseBytes = product(glm::dvec3(size)) * sizeof(float);
+  const glm::i64vec3 bricks = (size + int64_t{DensityGrid::brickSide - 1}) / int64_t{DensityGrid::brickSide};
+  const double mapBytes = product(glm::dvec3(bricks)) * sizeof(uint32_t);
+  constexpr int64_t longest = int64_t{1} << 30;
+  if (std::max({size.x, size.y, size.z}) > longest || mapBytes > static_cast<double>(maxBytes) / 4)
+    failTooLarge(place, "the map of the bricks in", size, mapBytes, maxBytes / 4);
 
   DensityGrid grid;
   grid.origin = glm::ivec3(box.low - int64_t{1});
   grid.size = glm::ivec3(size);
-  grid.values.assign(static_cast<size_t>(size.x * size.y * size.z), 0.f);
-  for (auto value = tree.cbeginValueOn(); value; ++value)
-    if (*value != 0) fill(grid, value.getBoundingBox(), *value);
+  if (denseBytes <= static_cast<double>(std::min(alwaysDenseBytes, maxBytes))) {
+    fillDense(tree, grid);
+    return grid;
+  }
+  constexpr size_t brickBytes = DensityGrid::valuesInBrick * sizeof(float);
+  const size_t count = numberBricks(tree, grid);
+  const double bytes = mapBytes + static_cast<double>(count * brickBytes);
+  if (std::min(bytes, denseBytes) > static_cast<double>(maxBytes))
+    failTooLarge(place, "what is in", size, std::min(bytes, denseBytes), maxBytes);
+  if (denseBytes <= static_cast<double>(maxBytes) && denseBytes <= mostDenseFactor * bytes) {
+    grid.bricks = {};
+    fillDense(tree, grid);
+  } else {
+    fillBricks(tree, grid, count);
+  }
   return grid;
 }
 
@@ -182,9 +252,10 @@ DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridNa
     fail(ExitCode::Input, "{} has the background {}, so it has no end: give a fog volume of background 0",
          place, tree.background());
 
-  DensityGrid grid = toDense(tree, place, maxBytes);
+  DensityGrid grid = toGrid(tree, place, maxBytes);
   grid.name = entry.name;
   grid.worldFromIndex = layout.worldFromIndex;
+  grid.half = layout.half;
   return grid;
 }
 

@@ -9,12 +9,14 @@
 
 namespace sfumato::volumes {
 
-// Reads one float or half fog volume as a dense grid: active voxels and active tiles, the bounding box of
-// what is not zero plus a margin of one voxel, the linear transform of the file (rotated and sheared ones
-// too). `gridName` empty: "density", else the only float grid. Throws Input in one line: missing, truncated
+// Reads one float or half fog volume: active voxels and active tiles, the bounding box of what is not zero
+// plus a margin of one voxel, the linear transform of the file (rotated and sheared ones too). The box is
+// dense in memory up to 64 MiB, and beyond where bricks would not take less than half of that; else it is in
+// bricks. `gridName` empty: "density", else the only float grid. Throws Input in one line: missing, truncated
 // or damaged file; no such grid (the line lists those there are, with their types); a level set, vector,
 // point or integer grid; a transform that is not linear (frustum); a background other than 0; a NaN, infinite
-// or negative density. Throws Memory when the dense box would take more than `maxBytes`.
+// or negative density. Throws Memory when that would take more than `maxBytes`, or the map
+// of the bricks more than a quarter of them.
 DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName,
                     size_t maxBytes = size_t{4} << 30);
 

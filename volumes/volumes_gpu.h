@@ -1,4 +1,4 @@
-// Media on the GPU: one 3D texture of density each, and what shaders/volumes/media.glsl reads.
+// Media on the GPU: their grids, and what shaders/volumes/media.glsl reads.
 #pragma once
 
 #include <span>
@@ -7,26 +7,29 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/program.h"
-#include "gl/texture.h"
 #include "volumes/grid.h"
+#include "volumes/grids_gpu.h"
 
 namespace sfumato::volumes {
 
 class VolumesGpu {
  public:
-  // Uploads every medium: 4 bytes a voxel. Throws Memory when a grid is over the device's 3D texture limit,
-  // or there are more media than texture units for them.
-  VolumesGpu(gl::Device& device, std::span<const Medium> media);
+  // Uploads every medium. Throws Memory when its grids do not fit (volumes/grids_gpu.h), or there are more
+  // media than texture units for them.
+  VolumesGpu(gl::Device& device, std::span<const Medium> media, const GridOptions& options = {});
 
-  size_t count() const { return textures_.size(); }
-  bool empty() const { return textures_.empty(); }
-  // VOLUME_COUNT, for programs that include shaders/volumes/media.glsl.
+  size_t count() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  // VOLUME_COUNT, those of the grids, and COLOURED_SMOKE where the extinction of some medium has a colour;
+  // for programs that include shaders/volumes/media.glsl.
   gl::ShaderDefines defines() const;
   void bind() const;
 
  private:
-  std::vector<gl::Texture> textures_;
+  size_t count_;
+  GridsGpu grids_;  // the density of each medium
   gl::Buffer data_;
+  bool coloured_ = false;
 };
 
 }  // namespace sfumato::volumes

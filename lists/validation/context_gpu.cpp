@@ -63,6 +63,9 @@ Result shaders(const Context& context) {
                         {"TEXTURES", "1"},
                         {"SMOKE", "1"},
                         {"VOLUME_COUNT", "2"},
+                        {"GRID_COUNT", "2"},
+                        {"GRID_BRICKS", "2"},
+                        {"GRID_BRICK_SIDE", "8"},
                         {"SURFACES", "1"},
                         {"SHADOW_OBJECTS", "1"},
                         {"LIST_PASS", pass}});

@@ -6,10 +6,10 @@
 #include <array>
 #include <chrono>
 #include <cstring>
-#include <fstream>
 #include <optional>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "gl/commands.h"
 #include "gl/profiler.h"
 #include "gl/texture.h"
@@ -19,18 +19,6 @@ namespace sfumato::lists::validation {
 namespace {
 
 constexpr uint64_t mebi = uint64_t{1} << 20;
-
-// Free memory of this machine in bytes, when it says.
-std::optional<uint64_t> freeMemory() {
-  std::ifstream file("/proc/meminfo");
-  std::string word;
-  while (file >> word)
-    if (word == "MemAvailable:") {
-      uint64_t kibi = 0;
-      if (file >> kibi) return kibi * 1024;
-    }
-  return std::nullopt;
-}
 
 // The words of a buffer of `words` that a wrapped or shortened index would confuse.
 std::array<uint32_t, 16> places(uint64_t words) {
@@ -85,7 +73,7 @@ Result sizeLadder(const Context& context, Sizes which) {
   std::erase_if(sizes, [&](uint64_t bytes) { return (bytes <= limit) != (which == Sizes::Promised); });
   if (sizes.empty())
     return {Verdict::Skip, "no size that is tried is on this side of the limit of a block", {}, {}};
-  const std::optional<uint64_t> room = freeMemory();
+  const std::optional<uint64_t> room = base::freeMemory();
   Result result;
   result.figures = {{"largest block that is promised (MiB)", static_cast<int64_t>(limit / mebi)}};
   for (const uint64_t bytes : sizes) {

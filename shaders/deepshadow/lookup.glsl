@@ -7,24 +7,7 @@ layout(std430, binding = STORAGE_SHADOW_FACES) readonly buffer Faces {
 };
 // As buffer textures, because all maps together may be larger than one storage block.
 layout(binding = TEXTURE_SHADOW_TEXELS) uniform usamplerBuffer shadowTexels;  // ShadowTexel
-layout(binding = TEXTURE_SHADOW_KNOTS) uniform samplerBuffer shadowKnots;     // ShadowKnot
-
-// Optical depth from the light to `depth` in the run of a texel: the last knot at or before it is found by
-// bisection, tau is linear from there to the next one.
-vec3 opticalDepthAt(uint first, uint count, float depth) {
-  uint low = 0u;
-  uint high = count;  // knots [0, low) are at or before depth, knots [high, count) are behind it
-  while (low < high) {
-    uint middle = (low + high) >> 1;
-    if (texelFetch(shadowKnots, int(first + middle)).x <= depth) low = middle + 1u;
-    else high = middle;
-  }
-  if (low == 0u) return vec3(0.0);
-  vec4 before = texelFetch(shadowKnots, int(first + low - 1u));
-  if (low == count) return before.yzw;
-  vec4 after = texelFetch(shadowKnots, int(first + low));
-  return mix(before.yzw, after.yzw, (depth - before.x) / (after.x - before.x));
-}
+layout(binding = TEXTURE_SHADOW_KNOTS) uniform samplerBuffer shadowKnots;     // units: see ShadowTexel
 
 ShadowTexel shadowTexel(uint number) {
   uvec3 words = texelFetch(shadowTexels, int(number)).xyz;
@@ -32,13 +15,36 @@ ShadowTexel shadowTexel(uint number) {
 }
 
 uint knotCount(ShadowTexel texel) {
-  return texel.count & ~SHADOW_OWN_STEPS;
+  return texel.count & SHADOW_KNOTS;
+}
+
+// Optical depth from the light to `depth` in a texel that has knots: the last unit that begins at or before it is found
+// by bisection; tau is linear from the last knot there to the next one.
+vec3 opticalDepthAt(ShadowTexel texel, float depth) {
+  bool grey = (texel.count & SHADOW_GREY) != 0u;
+  uint units = grey ? (knotCount(texel) + 1u) >> 1 : knotCount(texel);
+  uint low = 0u;
+  uint high = units;  // units [0, low) begin at or before depth, units [high, units) behind it
+  while (low < high) {
+    uint middle = (low + high) >> 1;
+    if (texelFetch(shadowKnots, int(texel.first + middle)).x <= depth) low = middle + 1u;
+    else high = middle;
+  }
+  if (low == 0u) return vec3(0.0);
+  vec4 before = texelFetch(shadowKnots, int(texel.first + low - 1u));
+  vec4 after = vec4(NOTHING_OPAQUE, grey ? before.www : before.yzw);
+  if (low < units) after = texelFetch(shadowKnots, int(texel.first + low));
+  if (grey) {
+    bool second = before.z <= depth;
+    after = second ? after.xyyy : before.zwww;
+    before = second ? before.zwww : before.xyyy;
+  }
+  return mix(before.yzw, after.yzw, (depth - before.x) / (after.x - before.x));
 }
 
 // Through what lets light pass, opaque surfaces aside; `ownTau` is taken out.
 vec3 runTransmittance(ShadowTexel texel, float depth, vec3 ownTau) {
-  uint count = knotCount(texel);
-  return count == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel.first, count, depth), 0.0));
+  return knotCount(texel) == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel, depth), 0.0));
 }
 
 // Walks the own steps of a texel (see ShadowTexel) up to `depth`: gives what those of `object` add to the optical
@@ -89,30 +95,69 @@ uint texelNumber(ShadowFace face, ivec2 texel) {
   return uint(face.texels.x + texel.y * face.texels.y + texel.x);
 }
 
-// Of a point in smoke, in the view space of the face that sees it: the nearest texel, or the four around it.
-vec3 shadowInSmoke(ShadowFace face, vec3 pFace, bool bilinear) {
+// The texels that a lookup asks: side x side of them from `first` on. Weights are those of a B-spline of order `side`:
+// 1 the nearest, 2 bilinear, 4 soft.
+struct Taps {
+  ivec2 first;
+  vec4 x;
+  vec4 y;
+};
+
+Taps tapsAround(vec2 place, int side) {
+  Taps taps = Taps(ivec2(floor(place)), vec4(1.0), vec4(1.0));
+  if (side == 1) return taps;
+  vec2 corner = floor(place - 0.5);
+  vec2 f = place - 0.5 - corner;
+  vec2 g = 1.0 - f;
+  taps.first = ivec2(corner);
+  taps.x.xy = vec2(g.x, f.x);
+  taps.y.xy = vec2(g.y, f.y);
+  if (side == 2) return taps;
+  vec2 first = g * g * g / 6.0;
+  vec2 last = f * f * f / 6.0;
+  vec2 second = 2.0 / 3.0 - f * f * (1.0 - 0.5 * f);
+  vec2 third = 1.0 - first - second - last;
+  taps.first -= 1;
+  taps.x = vec4(first.x, second.x, third.x, last.x);
+  taps.y = vec4(first.y, second.y, third.y, last.y);
+  return taps;
+}
+
+// Of a point in smoke, in the view space of the face that sees it; `side`: see Taps.
+vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   float depth = -pFace.z;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(depth, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
-  if (!bilinear) return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth);
-  vec2 corner = floor(place - 0.5);
-  vec2 weight = place - 0.5 - corner;
+  if (side == 1) return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth);
+  Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < 4; ++i) {
-    ivec2 offset = ivec2(i & 1, i >> 1);
-    vec2 side = mix(1.0 - weight, weight, vec2(offset));
-    sum += side.x * side.y * texelTransmittance(texelNumber(face, ivec2(corner) + offset), depth);
+  for (int i = 0; i < side * side; ++i) {
+    ivec2 offset = ivec2(i % side, i / side);
+    sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
   return sum;
 }
 
-// Of a point on a surface of `object` (see PackedSurface) with the plane normal `normal`: the four texels around it, each
-// asked at the depth at which the ray through its centre meets that plane, so that a flat surface neither shadows itself
+// The opaque depth that a texel's surface would have `offset` texels away from its centre, towards a point, if it went on
+// as it does from the texels on its far side: exact for a plane. Very near where they have another surface, or none.
+float opaqueDepthFrom(ShadowFace face, ivec2 texel, float depth, vec2 offset) {
+  ivec2 outwards = ivec2(sign(offset));
+  float besideX = uintBitsToFloat(texelFetch(shadowTexels, int(texelNumber(face, texel + ivec2(outwards.x, 0)))).z);
+  float besideY = uintBitsToFloat(texelFetch(shadowTexels, int(texelNumber(face, texel + ivec2(0, outwards.y)))).z);
+  if (face.texels.z == 0) return depth + dot(abs(offset), vec2(depth) - vec2(besideX, besideY));
+  // Seen in perspective, the inverse of a plane's depth is linear.
+  float inverse = 1.0 / depth + dot(abs(offset), 1.0 / vec2(depth) - 1.0 / vec2(besideX, besideY));
+  return inverse > 0.0 ? 1.0 / inverse : 3e38;
+}
+
+// Of a point on a surface of `object` (see PackedSurface) with the plane normal `normal`: the texels around it (`side`: see
+// Taps), each asked at the depth at which the ray through its centre meets that plane, so that a flat surface neither shadows itself
 // nor leaks, whatever the angle and the resolution. What lies before the plane by less than a texel or two is where a texel
 // cannot tell: another surface that joins this one in a corner, or this one where it is curved. An opaque texel of
 // that kind is left out as long as others tell something, and lit where none does; a translucent one is looked up that
 // much earlier.
-vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal, uint object) {
+vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal, uint object,
+                     int side) {
   ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
   vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
   vec3 n = mat3(face.faceFromWorld) * normal;
@@ -121,31 +166,32 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
   vec2 place = (perspective ? p.xy / max(ownDepth, 1e-20) : p.xy) * face.projection.xy + face.projection.zw;
   float texelWidth = (perspective ? ownDepth : 1.0) / min(face.projection.x, face.projection.y);
   float rounding = 1e-4 * abs(ownDepth) + 1e-3 * texelWidth;
-  vec2 corner = floor(place - 0.5);
-  vec2 weight = place - 0.5 - corner;
+  Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
   float told = 0.0;
   vec3 doubtful = vec3(0.0);
-  for (int i = 0; i < 4; ++i) {
-    ivec2 offset = ivec2(i & 1, i >> 1);
-    vec2 sides = mix(1.0 - weight, weight, vec2(offset));
-    float share = sides.x * sides.y;
-    vec2 xy = (corner + vec2(offset) + 0.5 - face.projection.zw) / face.projection.xy;
+  for (int i = 0; i < side * side; ++i) {
+    ivec2 offset = ivec2(i % side, i / side);
+    float share = taps.x[offset.x] * taps.y[offset.y];
+    ivec2 at = taps.first + offset;
+    vec2 xy = (vec2(at) + 0.5 - face.projection.zw) / face.projection.xy;
     // The plane dot(n, x) = dot(n, p), met by x = (xy depth, -depth) or x = (xy, -depth). Seen edge-on it is met far
     // away or nowhere; little light falls on it then, and the point's own depth will do.
     float depth = perspective ? dot(n, p) / dot(n, vec3(xy, -1.0)) : (dot(n.xy, xy) - dot(n, p)) / n.z;
-    if (!(abs(depth - ownDepth) < 64.0 * texelWidth)) depth = ownDepth;
+    if (!(abs(depth - ownDepth) < 512.0 * texelWidth)) depth = ownDepth;
     float slack = texelWidth + 0.3 * abs(depth - ownDepth);
     depth -= rounding;
-    ShadowTexel texel = shadowTexel(texelNumber(face, ivec2(corner) + offset));
+    ShadowTexel texel = shadowTexel(texelNumber(face, at));
     vec3 ownTau = takeOwnSteps(texel, depth, slack, object);
-    if (min(depth, ownDepth) - slack > texel.opaqueDepth) {
+    bool lit = depth <= texel.opaqueDepth;
+    bool blocked = min(depth, ownDepth) - slack > texel.opaqueDepth &&
+                   opaqueDepthFrom(face, at, texel.opaqueDepth, vec2(at) + 0.5 - place) < ownDepth - slack;
+    // At a grazing angle the plane is met far on the light's side of the point: with something else in between, the
+    // texel tells only where no other does.
+    if (lit && texel.opaqueDepth > depth + 4.0 * rounding && texel.opaqueDepth < ownDepth - texelWidth) share *= 1e-6;
+    if (blocked) {
       told += share;
     } else {
-      bool lit = depth <= texel.opaqueDepth;
-      // At a grazing angle the plane is met far on the light's side of the point: with something else in between, the
-      // texel tells only where no other does.
-      if (lit && texel.opaqueDepth > depth + 4.0 * rounding && texel.opaqueDepth < ownDepth - texelWidth) share *= 1e-6;
       vec3 through = share * runTransmittance(texel, min(depth, texel.opaqueDepth) - slack, ownTau);
       if (lit) {
         sum += through;

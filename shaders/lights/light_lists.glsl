@@ -3,8 +3,7 @@
 #include "shaders/shared/lists.h"
 
 layout(binding = TEXTURE_LIGHT_CELL_RUNS) uniform usamplerBuffer lightCellRuns;    // ListRun
-layout(binding = TEXTURE_LIGHT_CELL_KEYS) uniform usamplerBuffer lightCellKeys;    // ListKey: front depth, light
-layout(binding = TEXTURE_LIGHT_CELL_BACKS) uniform usamplerBuffer lightCellBacks;  // bits of the back depth
+layout(binding = TEXTURE_LIGHT_CELL_KEYS) uniform usamplerBuffer lightCellKeys;    // ListKey: front depth, light and back
 
 const int LIGHT_CELL_SIDE = 4;  // pixels
 
@@ -30,5 +29,5 @@ struct ListedLight {
 
 ListedLight listedLight(uint node) {
   uvec2 key = texelFetch(lightCellKeys, int(node)).xy;
-  return ListedLight(key.y, uintBitsToFloat(key.x), uintBitsToFloat(texelFetch(lightCellBacks, int(node)).x));
+  return ListedLight(key.y >> LIGHT_NUMBER_SHIFT, uintBitsToFloat(key.x), uintBitsToFloat(key.y << LIGHT_NUMBER_SHIFT));
 }

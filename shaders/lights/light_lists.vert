@@ -17,6 +17,7 @@ const float GOLDEN = 1.61803398875;
 // Circumradius over inradius of the icosahedron, and of an octagon, rounded up.
 const float ICOSAHEDRON_EXCESS = 1.2585;
 const float OCTAGON_EXCESS = 1.0825;
+const float ROUNDED = 1.05;  // cells, so that what a rasteriser rounds hides none
 
 const vec3 CORNERS[12] = vec3[](vec3(-1, GOLDEN, 0), vec3(1, GOLDEN, 0), vec3(-1, -GOLDEN, 0), vec3(1, -GOLDEN, 0),
                                 vec3(0, -1, GOLDEN), vec3(0, 1, GOLDEN), vec3(0, -1, -GOLDEN), vec3(0, 1, -GOLDEN),
@@ -47,7 +48,7 @@ vec3 coneVertex(int vertex, Proxy proxy) {
 
 void main() {
   vLight = uint(params.cells.w + gl_InstanceID);
-  Proxy proxy = lightProxy(vLight, view, params);
+  Proxy proxy = seenInSquare(lightProxy(vLight, view), ROUNDED * float(params.cells.z), view);
   vec3 pView = proxy.isCone ? coneVertex(gl_VertexID, proxy) : sphereVertex(gl_VertexID, proxy);
   vec4 clip = view.clipFromView * vec4(pView, 1.0);
   // The grid of whole cells may reach past the image's right and upper edge.

@@ -1,6 +1,6 @@
 // The volume that a point or spot light reaches, in view space, inflated by how far a ray through a cell can be off the
 // ray through its centre: every point that the light reaches inside the cell, moved at its depth onto the centre ray,
-// is inside the inflated volume. That makes lists conservative.
+// is inside the inflated volume. That makes lists conservative, whatever they are built by.
 #include "shaders/shared/lights.h"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/view.h"
@@ -12,29 +12,41 @@ struct Proxy {
   vec3 apex;     // of the cone, moved back
   vec3 axis;
   float cosine;  // of its half angle
+  float sine;
   float tangent;
 };
 
 const float WIDEST_CONE_COSINE = 0.5;  // wider spots are treated as spheres
 
-Proxy lightProxy(uint number, ViewParams camera, LightPassParams pass) {
+// Everything within `off` of the proxy. A cone moved back by off / sin holds what is within `off` of it.
+Proxy inflated(Proxy proxy, float off) {
+  proxy.radius += off;
+  proxy.apex -= proxy.axis * (off / max(proxy.sine, 1e-4));
+  return proxy;
+}
+
+// Holds, for every point of the proxy that a ray through a square of `pixels` a side meets, the point of that depth on the
+// ray through the square's middle.
+Proxy seenInSquare(Proxy proxy, float pixels, ViewParams camera) {
+  vec2 pixel = 2.0 * camera.halfExtent.xy / vec2(camera.size.xy);
+  float off = 0.505 * pixels * length(pixel);  // half the diagonal at depth 1, or anywhere, with a little for rounding
+  if (camera.halfExtent.z == 0.0) off *= max(-proxy.centre.z + proxy.radius, 0.0);
+  return inflated(proxy, off);
+}
+
+// What a light reaches, with a little for rounding.
+Proxy lightProxy(uint number, ViewParams camera) {
   vec4 position = lights[number].position;
-  float reach = position.w;
   Proxy proxy;
   proxy.centre = (camera.viewFromWorld * vec4(position.xyz, 1.0)).xyz;
-  // Half the diagonal of a cell, at depth 1 or anywhere, with a little for rounding.
-  vec2 pixel = 2.0 * camera.halfExtent.xy / vec2(camera.size.xy);
-  float off = 0.505 * float(pass.cells.z) * length(pixel);
-  if (camera.halfExtent.z == 0.0) off *= max(-proxy.centre.z + reach, 0.0);
-  off += 1e-5 * (reach + length(proxy.centre));
-  proxy.radius = reach + off;
-  proxy.cosine = lights[number].direction.w;
-  proxy.isCone = lights[number].indices.x == LIGHT_SPOT && proxy.cosine > WIDEST_CONE_COSINE;
+  proxy.radius = position.w;
   proxy.axis = mat3(camera.viewFromWorld) * lights[number].direction.xyz;
+  proxy.apex = proxy.centre;
+  proxy.cosine = lights[number].direction.w;
+  proxy.sine = lights[number].cone.z;
   proxy.tangent = lights[number].cone.w;
-  // A cone moved back by off / sin holds everything within `off` of the cone.
-  proxy.apex = proxy.centre - proxy.axis * (off / max(lights[number].cone.z, 1e-4));
-  return proxy;
+  proxy.isCone = lights[number].indices.x == LIGHT_SPOT && proxy.cosine > WIDEST_CONE_COSINE;
+  return inflated(proxy, 1e-5 * (proxy.radius + length(proxy.centre)));
 }
 
 // Depths at which start + depth * perDepth is inside the sphere; false when nowhere.

@@ -27,6 +27,13 @@ struct PixelRay {
   ListRun lights;  // of its cell
 };
 
+#ifdef COUNT_LOOKUPS
+uvec2 lookups = uvec2(0u);  // of this invocation; x: lights asked, y: shadows
+#define COUNT_LOOKUP(of) ++lookups.of
+#else
+#define COUNT_LOOKUP(of)
+#endif
+
 uint work = 0u;  // loop iterations of this invocation, about
 
 // Those that may reach something in the pixel: the directional ones, then its cell's list. One loop over both keeps a
@@ -36,6 +43,7 @@ uint lightsOf(PixelRay ray) {
 }
 
 ListedLight lightOf(PixelRay ray, uint i) {
+  COUNT_LOOKUP(x);
   uint directional = uint(params.options.z);
   return i < directional ? ListedLight(i, -3e38, 3e38) : listedLight(ray.lights.first + i - directional);
 }

@@ -2,8 +2,10 @@
 // the opaque depth, and lights both through light lists and deep shadow maps. A ray that has done much work keeps
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
-// objects that do not shadow themselves.
+// objects that do not shadow themselves. DEEP is defined when what each ray meets is recorded for a deep image; then the
+// rays are those of a list.
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/deep_events.glsl"
 #include "shaders/pipelines/surface_lighting.glsl"
 #include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/linear_id.glsl"
@@ -20,6 +22,12 @@ layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 layout(binding = TEXTURE_SURFACE_1) uniform pixelUsampler opaqueSurface1;
+
+#ifdef COUNT_LOOKUPS
+layout(std430, binding = STORAGE_LOOKUPS) buffer RayLookups {
+  uvec2 rayLookups[];
+};
+#endif
 
 const float FINISHED = 3e38;
 
@@ -49,6 +57,7 @@ RayPlace rayPlace(uint ray) {
 void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
+  number = rayNumber(number);
   bool first = params.options.x != 0;
   float depth = first ? view.depthRange.x : rays[number].depth;
   if (depth >= FINISHED) return;
@@ -106,24 +115,27 @@ void main() {
       float to = stepEnd(media, depth, limit);
       float middle = 0.5 * (depth + to);
       float scattered[VOLUME_COUNT];
-      float sigmaT = 0.0;
+      Extinction sigmaT = Extinction(0.0);
       for (int v = 0; v < VOLUME_COUNT; ++v) {
         scattered[v] = extinctionOf(v, media, middle);
-        sigmaT += scattered[v];
+        sigmaT += inChannels(v, scattered[v]);
       }
-      if (sigmaT > 0.0) {
-        float tau = sigmaT * (to - depth) * ray.metresPerDepth;
-        float passed = exp(-tau);
-        // Integral of exp(-sigmaT s) over the step; its series where the difference would cancel.
-        float seenLength = tau > 1e-3 ? (1.0 - passed) / sigmaT : (tau / sigmaT) * (1.0 - 0.5 * tau);
-        for (int v = 0; v < VOLUME_COUNT; ++v) scattered[v] *= seenLength;
-        appendStep(steps, middle, to - depth, scattered, throughput);
-        throughput *= passed;
+      if (maxComponent(sigmaT) > 0.0) {
+        float stepLength = (to - depth) * ray.metresPerDepth;
+        Extinction tau = sigmaT * stepLength;
+        appendStep(steps, middle, to - depth, scattered, throughput * seenLength(tau, stepLength));
+        throughput *= exp(-tau);
         if (maxComponent(throughput) < params.march.y) limit = to;
+      } else {
+        to = emptyEnd(media, depth, to, limit);
       }
       depth = to;
     }
-    if (steps.count > 0) radiance += scattered(steps, ray);
+    if (steps.count > 0) {
+      vec3 added = scattered(steps, ray);
+      radiance += added;
+      recordEvent(depth - steps.size[0], depth, added, throughput);
+    }
     atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
 #endif
     if (atSurface) {
@@ -139,8 +151,13 @@ void main() {
                                more.w & 0xffff0000u);
         seen = opaque < view.depthRange.y;
       }
-      if (seen) radiance += throughput * shadeSurface(unpackSurface(stored), ray, listed ? nextSurface : opaque);
-      if (listed && seen) throughput *= surfacePass(stored);
+      float at = listed ? nextSurface : opaque;
+      if (seen) {
+        vec3 added = throughput * shadeSurface(unpackSurface(stored), ray, at);
+        radiance += added;
+        if (listed) throughput *= surfacePass(stored);
+        recordEvent(at, at, added, listed ? throughput : vec3(0.0));
+      }
       if (listed) depth = max(depth, nextSurface);
       ++passed;
       walking = listed;
@@ -148,6 +165,9 @@ void main() {
     if (maxComponent(throughput) < params.march.y) walking = false;
   }
   if (walking) atomicAdd(counters.unfinished, 1u);
+#ifdef COUNT_LOOKUPS
+  rayLookups[number] = first ? lookups : rayLookups[number] + lookups;
+#endif
   rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
                           throughput.b, passed);
 }

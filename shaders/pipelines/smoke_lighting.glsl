@@ -1,36 +1,39 @@
 // Light in smoke.
 #include "shaders/deepshadow/lookup.glsl"
+#include "shaders/pipelines/multiple_scattering.glsl"
 #include "shaders/pipelines/pixel_ray.glsl"
 #include "shaders/volumes/media.glsl"
 
 // Up to four steps of the march, lit together so that what describes a light is read once for all of them.
-// Component k of each vector is step k; a step that is not there scatters nothing.
+// Component k of each vector is step k; a step that is not there scatters nothing. DEEP wants to know of each by itself.
+#ifdef DEEP
+const int STEPS = 1;
+#else
 const int STEPS = 4;
+#endif
 
 struct Steps {
   int count;
   vec4 depth;                    // of its middle
   vec4 size;                     // in depth
-  vec4 scattered[VOLUME_COUNT];  // sigma_t of each medium times the length over which it is seen
-  vec4 throughput[3];            // of the ray before the step: red, green, blue
+  vec4 scattered[VOLUME_COUNT];  // sigma_t of each medium
+  vec4 seen[3];                  // throughput of the ray before the step, times the length over which the step is seen, m
 };
 
-void appendStep(inout Steps steps, float depth, float size, float scattered[VOLUME_COUNT], vec3 throughput) {
+void appendStep(inout Steps steps, float depth, float size, float scattered[VOLUME_COUNT], vec3 seen) {
   int k = steps.count;
   steps.depth[k] = depth;
   steps.size[k] = size;
   for (int v = 0; v < VOLUME_COUNT; ++v) steps.scattered[v][k] = scattered[v];
-  for (int c = 0; c < 3; ++c) steps.throughput[c][k] = throughput[c];
+  for (int c = 0; c < 3; ++c) steps.seen[c][k] = seen[c];
   ++steps.count;
 }
 
-// What the media turn from light that travels along `direction` towards the viewer.
-vec3 turned(Steps steps, int k, vec3 direction, vec3 towardsViewer) {
+// What the media turn from light that travels along `direction` towards the viewer; `passing` of it gets there.
+vec3 turned(Steps steps, int k, vec3 direction, vec3 towardsViewer, vec3 passing) {
   vec3 sum = vec3(0.0);
-  for (int v = 0; v < VOLUME_COUNT; ++v) {
-    float phase = phaseHenyeyGreenstein(dot(direction, towardsViewer), volumes[v].phase.x);
-    sum += volumes[v].albedoScale.rgb * (steps.scattered[v][k] * phase);
-  }
+  for (int v = 0; v < VOLUME_COUNT; ++v)
+    sum += volumes[v].scattering.rgb * steps.scattered[v][k] * turnedByMedium(v, dot(direction, towardsViewer), passing);
   return sum;
 }
 
@@ -53,7 +56,7 @@ float distancePassed(PixelRay ray, vec3 miss, float depth) {
 
 // Mean over step k of what a lamp close by adds to it. Its irradiance peaks where the ray passes it, so that the step is
 // cut at equal angles as the lamp sees them (Kulla and Fajardo 2012).
-vec3 turnedFromNearby(LightData light, Steps steps, int k, PixelRay ray) {
+vec3 turnedFromNearby(LightData light, Steps steps, int k, PixelRay ray, vec3 passing) {
   const int CUTS = 4;
   vec3 middle = ray.origin + steps.depth[k] * ray.perDepth;
   float halfLength = 0.5 * steps.size[k] * ray.metresPerDepth;
@@ -69,7 +72,7 @@ vec3 turnedFromNearby(LightData light, Steps steps, int k, PixelRay ray) {
     vec3 fromLight = passed - away * tan(angle) * ray.towardsViewer;
     vec3 toLight;
     vec3 irradiance = lightFrom(light, light.position.xyz + fromLight, toLight);
-    sum += irradiance * dot(fromLight, fromLight) * turned(steps, k, -toLight, ray.towardsViewer);
+    sum += irradiance * dot(fromLight, fromLight) * turned(steps, k, -toLight, ray.towardsViewer, passing);
   }
   return sum * (last - first) / (float(CUTS) * 2.0 * halfLength * away);
 }
@@ -95,11 +98,7 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
     vec3 toLight;
     vec3 added = lightFrom(light, p, toLight);
     if (maxComponent(added) > 0.0) {
-      float stepLength = steps.size[k] * ray.metresPerDepth;
-      vec3 distances = light.position.xyz - p;
-      bool nearby = light.indices.x != LIGHT_DIRECTIONAL && dot(distances, distances) < 16.0 * stepLength * stepLength;
-      if (nearby) added = turnedFromNearby(light, steps, k, ray);
-      else added *= turned(steps, k, -toLight, ray.towardsViewer);
+      vec3 passing = vec3(1.0);
       if (shadowed) {
         vec3 pFace = start + depth * perDepth;
         ShadowFace seen = face;
@@ -109,10 +108,15 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
           seen.texels.x += side * face.texels.y * face.texels.y;
           pFace = inCubeFace(side, p - light.position.xyz);
         }
-        added *= shadowInSmoke(seen, pFace, params.options.y != 0);
+        COUNT_LOOKUP(y);
+        passing = shadowInSmoke(seen, pFace, params.options.y >> 3);
       }
-      vec3 throughput = vec3(steps.throughput[0][k], steps.throughput[1][k], steps.throughput[2][k]);
-      sum += throughput * added;
+      float stepLength = steps.size[k] * ray.metresPerDepth;
+      vec3 distances = light.position.xyz - p;
+      bool nearby = light.indices.x != LIGHT_DIRECTIONAL && dot(distances, distances) < 16.0 * stepLength * stepLength;
+      if (nearby) added = turnedFromNearby(light, steps, k, ray, passing);
+      else added *= turned(steps, k, -toLight, ray.towardsViewer, passing);
+      sum += vec3(steps.seen[0][k], steps.seen[1][k], steps.seen[2][k]) * added;
     }
   }
   work += uint(8 * STEPS);

@@ -9,8 +9,11 @@ vec3 reflectedFrom(uint number, Surface surface, vec3 p, vec3 toViewer) {
   vec3 irradiance = lightFrom(light, p, toLight);
   float cosine = dot(surface.normal, toLight);
   if (maxComponent(irradiance) <= 0.0 || cosine <= 0.0 || dot(surface.geometricNormal, toLight) <= 0.0) return vec3(0.0);
-  if (light.indices.y >= 0)
-    irradiance *= shadowOnSurface(light.indices.y, light.indices.z, light.position.xyz, p, surface.geometricNormal, surface.object);
+  if (light.indices.y >= 0) {
+    COUNT_LOOKUP(y);
+    irradiance *= shadowOnSurface(light.indices.y, light.indices.z, light.position.xyz, p, surface.geometricNormal,
+                                  surface.object, params.options.y & 7);
+  }
   return brdf(surface, toLight, toViewer) * irradiance * cosine;
 }
 

@@ -6,6 +6,7 @@
 #define UNIFORM_PASS 1  // the pass's own block
 #define UNIFORM_LISTS 2      // ListWindow, while lists are built
 #define UNIFORM_LIST_STEP 3  // ListStep: one step of their scan or sort
+#define UNIFORM_GRIDS 4      // GridData[]
 
 // Storage blocks
 #define STORAGE_DRAWS 0      // DrawData[]
@@ -16,6 +17,8 @@
 #define STORAGE_LIST_COUNTERS 5
 #define STORAGE_LIGHTS 6            // LightData[]
 #define STORAGE_AOVS 7              // AovPixel[]
+#define STORAGE_RECEIVER_DEPTHS 8   // of each cell of the light lists
+#define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
 #define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
@@ -26,6 +29,8 @@
 #define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
 #define STORAGE_LIST_NODES 17     // keys or links, LIST_MAX_BANKS of them
 #define STORAGE_LIST_PAYLOADS 21  // likewise
+#define STORAGE_DEEP_RAYS 25      // the rays that are recorded: see deep_events.glsl
+#define STORAGE_DEEP_EVENTS 26    // DeepEvent[]
 
 // Texture units
 #define TEXTURE_BASE_COLOUR 0
@@ -47,5 +52,6 @@
 #define TEXTURE_LIST_LINKED_PAYLOADS 14
 #define TEXTURE_LIGHT_CELL_RUNS 15  // the light lists, likewise
 #define TEXTURE_LIGHT_CELL_KEYS 16
-#define TEXTURE_LIGHT_CELL_BACKS 17
-#define TEXTURE_VOLUMES 18  // and the units after it
+#define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
+#define TEXTURE_BRICK_MAP 18
+#define TEXTURE_GRIDS 19  // and the units after it

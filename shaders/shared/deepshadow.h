@@ -11,12 +11,14 @@ struct ShadowFace {
 };
 
 // The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots.
+// The pool's unit is 16 bytes: one knot of a coloured texel, two (depth, tau) of a grey one, whose odd last is followed
+// by one at NOTHING_OPAQUE.
 // Steps of objects that do not shadow themselves stand in the list once more, behind those knots, so that they can be
 // taken out again: as knots of (depth, object, number of the knot before the step, 1 where opaque), ended by one of
 // object 0.
 struct ShadowTexel {
-  uint first;         // knot
-  uint count;         // and SHADOW_OWN_STEPS
+  uint first;         // unit of the pool
+  uint count;         // knots; and SHADOW_GREY, SHADOW_OWN_STEPS
   float opaqueDepth;  // 3e38: nothing opaque
 };
 
@@ -37,19 +39,27 @@ struct ShadowPassParams {
   vec4 march;         // x: step of the march through smoke, voxels; y: bound of the error of the transmittance
   ivec4 cells;  // of the face, that knots are written of: x: the first, y: how many, z, w: place of the first in the
                 // runs and in the texels
-  ivec4 knots;  // x: number of the pool's first; y: 1 for all cells, 0 for those that found no room
+  ivec4 units;  // x: number of the pool's first that is written; y: SHADOW_*: which cells
 };
 
 struct ShadowCounters {
-  uint knots;       // demand, counted past the capacity
+  uint units;       // of the pool: demand, counted past the capacity
   uint unplaced;    // of it, what found no room
-  uint boundHit;    // texels whose march or walk was longer than its bound
+  uint unfinished;  // texels that go on in the next dispatch
+  uint boundHit;    // texels whose march was longer than its bound
   uint hidden;      // surfaces in lists that are behind the opaque depth
 };
 
 SHARED_END
 
+// Cells whose knots are written.
+#define SHADOW_UNPLACED 0  // those that found no room
+#define SHADOW_ALL 1
+#define SHADOW_UNFINISHED 2  // those that have more surfaces than one dispatch takes
+
 #define SHADOW_OPAQUE_TAU 100.0
 #define SHADOW_DARK_TAU 50.0  // what takes more than this is as good as opaque
 #define NOTHING_OPAQUE 3e38
-#define SHADOW_OWN_STEPS 0x80000000u
+#define SHADOW_OWN_STEPS 0x80000000u  // its own steps follow; never of a grey texel
+#define SHADOW_GREY 0x40000000u
+#define SHADOW_KNOTS 0x3fffffffu  // the mask of their count

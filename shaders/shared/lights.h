@@ -11,10 +11,10 @@ struct LightData {
   ivec4 indices;     // x: LIGHT_*, y: first shadow face or -1, z: faces, w: number of the light in the scene
 };
 
-// Of the passes that build and read the light lists.
+// Of the passes that build the light lists.
 struct LightPassParams {
-  ivec4 cells;   // x, y: cells across and down; z: pixels a cell's side; w: first light of the draw
-  ivec4 window;  // x, y: the first cell that has a list; z: how many of a row have one
+  ivec4 cells;   // x, y: cells across and down; z: pixels a cell's side; w: first light that is not directional
+  ivec4 window;  // x, y: the first cell that has a list; z, w: how many of a row and of a column have one
 };
 
 SHARED_END
@@ -22,3 +22,11 @@ SHARED_END
 #define LIGHT_DIRECTIONAL 0
 #define LIGHT_POINT 1
 #define LIGHT_SPOT 2
+
+// The id of a light's node in a cell: the number of the light, and its back depth there as the upper half of a float.
+#define LIGHT_NUMBER_SHIFT 16
+#define LIGHT_MOST 65536
+
+// Work of one dispatch that builds the lists by computing: tiles of cells, and lights that a group goes through.
+#define LIGHT_TILE_SIDE 8
+#define LIGHTS_OF_A_GROUP 4096

@@ -4,6 +4,19 @@ float maxComponent(vec3 v) {
   return max(v.r, max(v.g, v.b));
 }
 
+// So that what is one number or three is written once.
+float maxComponent(float x) {
+  return x;
+}
+
+float minComponent(float x) {
+  return x;
+}
+
+float minComponent(vec3 v) {
+  return min(v.r, min(v.g, v.b));
+}
+
 // Octahedral mapping of a unit vector to [-1, 1]^2 and back (Cigolle et al. 2014).
 vec2 octahedralFromUnit(vec3 n) {
   vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));

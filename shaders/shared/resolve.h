@@ -21,8 +21,8 @@ struct RayState {
 
 struct ResolveParams {
   vec4 march;      // x: step, voxels; y: throughput below which the rest is not looked at
-  ivec4 options;   // x: 1 when this is the first dispatch; y: 1 when smoke looks shadows up bilinearly;
-                   // z: directional lights; w: rays
+  ivec4 options;   // x: 1 when this is the first dispatch; y: texels a side that a lookup in a shadow map asks, of
+                   // surfaces, and 8 times those of smoke; z: directional lights; w: rays
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
   vec4 samples23;
 };

@@ -2,13 +2,14 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/volumes.h"
+#include "shaders/volumes/extinction.glsl"
+#include "shaders/volumes/grid.glsl"
 
 layout(std430, binding = STORAGE_VOLUMES) readonly buffer Volumes {
   VolumeData volumes[];
 };
-layout(binding = TEXTURE_VOLUMES) uniform sampler3D densities[VOLUME_COUNT];
 
-// A ray through all media: points are start + depth * perDepth, in texture coordinates of each.
+// A ray through all media: points are start + depth * perDepth, in coordinates of each one's grid.
 struct MediaRay {
   vec3 start[VOLUME_COUNT];
   vec3 perDepth[VOLUME_COUNT];
@@ -21,19 +22,18 @@ MediaRay mediaRay(vec3 origin, vec3 perDepth, vec2 depthRange, float stepVoxels)
   MediaRay ray;
   ray.rangeOfAll = vec2(3e38, -3e38);
   for (int v = 0; v < VOLUME_COUNT; ++v) {
-    VolumeData volume = volumes[v];
-    vec3 start = (volume.textureFromWorld * vec4(origin, 1.0)).xyz;
-    vec3 rate = (volume.textureFromWorld * vec4(perDepth, 0.0)).xyz;
+    vec3 start = (grids[v].gridFromWorld * vec4(origin, 1.0)).xyz;
+    vec3 rate = (grids[v].gridFromWorld * vec4(perDepth, 0.0)).xyz;
     vec3 safeRate = mix(rate, vec3(1e-20), lessThan(abs(rate), vec3(1e-20)));
-    vec3 toMin = (volume.boxMin.xyz - start) / safeRate;
-    vec3 toMax = (volume.boxMax.xyz - start) / safeRate;
+    vec3 toMin = (grids[v].boxMin.xyz - start) / safeRate;
+    vec3 toMax = (grids[v].boxMax.xyz - start) / safeRate;
     vec3 entry = min(toMin, toMax);
     vec3 leave = max(toMin, toMax);
     vec2 range = vec2(max(max(entry.x, entry.y), max(entry.z, depthRange.x)), min(min(leave.x, leave.y), min(leave.z, depthRange.y)));
     ray.start[v] = start;
     ray.perDepth[v] = rate;
     ray.range[v] = range;
-    ray.stride[v] = stepVoxels * volume.phase.y / length(perDepth);
+    ray.stride[v] = stepVoxels * volumes[v].phase.y / length(perDepth);
     if (range.x < range.y) ray.rangeOfAll = vec2(min(ray.rangeOfAll.x, range.x), max(ray.rangeOfAll.y, range.y));
   }
   return ray;
@@ -57,6 +57,26 @@ float stepEnd(MediaRay ray, float depth, float limit) {
   return to > depth ? min(to, limit) : limit;  // a stride below the rounding of the depth
 }
 
+// Of the step that begins at `depth` and ends at `to`, nothing was found in its middle: where the last step ends of which
+// the bricks say the same. Ends are those of stepEnd.
+float emptyEnd(MediaRay ray, float depth, float to, float limit) {
+  float middle = 0.5 * (depth + to);
+  float until = 3e38;
+  float stride = 3e38;
+  for (int v = 0; v < VOLUME_COUNT; ++v) {
+    if (ray.range[v].x < ray.range[v].y && depth < ray.range[v].y) {
+      bool inside = depth >= ray.range[v].x;
+      limit = min(limit, inside ? ray.range[v].y : ray.range[v].x);
+      if (inside) {
+        stride = min(stride, ray.stride[v]);
+        until = min(until, emptyUntil(v, ray.start[v], ray.perDepth[v], middle));
+      }
+    }
+  }
+  float entry = ray.rangeOfAll.x;
+  return max(to, min(entry + floor((until - entry) / stride + 0.5) * stride, limit));
+}
+
 // A bound of the steps of a march through all of the ray.
 float stepsAtMost(MediaRay ray) {
   float stride = 3e38;
@@ -64,17 +84,36 @@ float stepsAtMost(MediaRay ray) {
   return (ray.rangeOfAll.y - ray.rangeOfAll.x) / stride + float(2 * VOLUME_COUNT);
 }
 
-// Extinction of medium v at a depth along the ray, 1/m.
+// Extinction of medium v at a depth along the ray in the channel of which it takes most, 1/m.
 float extinctionOf(int v, MediaRay ray, float depth) {
   bool inside = depth >= ray.range[v].x && depth <= ray.range[v].y;
-  float density = textureLod(densities[v], ray.start[v] + depth * ray.perDepth[v], 0.0).r;
-  return inside ? density * volumes[v].albedoScale.w : 0.0;
+  float density = sampleGrid(v, ray.start[v] + depth * ray.perDepth[v]);
+  return inside ? density * volumes[v].extinction.w : 0.0;
 }
 
-float extinction(MediaRay ray, float depth) {
-  float sum = 0.0;
-  for (int v = 0; v < VOLUME_COUNT; ++v) sum += extinctionOf(v, ray, depth);
+// The same in each channel.
+Extinction inChannels(int v, float densest) {
+#ifdef COLOURED_SMOKE
+  return densest * volumes[v].extinction.rgb;
+#else
+  return densest;
+#endif
+}
+
+Extinction extinction(MediaRay ray, float depth) {
+  Extinction sum = Extinction(0.0);
+  for (int v = 0; v < VOLUME_COUNT; ++v) sum += inChannels(v, extinctionOf(v, ray, depth));
   return sum;
+}
+
+// Over which length what lies in a step of an optical depth is seen: the integral of exp(-sigma_t s), its series where the
+// difference would cancel.
+float seenLength(float tau, float stepLength) {
+  return stepLength * (tau > 1e-3 ? (1.0 - exp(-tau)) / tau : 1.0 - 0.5 * tau);
+}
+
+vec3 seenLength(vec3 tau, float stepLength) {
+  return vec3(seenLength(tau.r, stepLength), seenLength(tau.g, stepLength), seenLength(tau.b, stepLength));
 }
 
 // Henyey-Greenstein, 1/sr; `cosine` between the directions of travel before and after.

@@ -310,6 +310,9 @@ TEST_F(CommandLineRender, KeepsItsMessagesOutOfItsFiles) {
 TEST_F(CommandLineRender, DrawsScenesThatLackSomething) {
   GltfBuilder noLights = glowingTriangle();
   addCamera(noLights, "front");
+  GltfBuilder noLightAtAll = glowingTriangle();
+  noLightAtAll.json["materials"][0].erase("emissiveFactor");
+  addCamera(noLightAtAll, "front");
   GltfBuilder noMeshes;
   addCamera(noMeshes, "front");
   noMeshes.light({{"type", "point"}});
@@ -323,6 +326,7 @@ TEST_F(CommandLineRender, DrawsScenesThatLackSomething) {
     bool black;
   };
   for (const Row& row : std::vector<Row>{{"no lights", noLights.text(), true, false},
+                                         {"no light at all", noLightAtAll.text(), true, false},
                                          {"no meshes", noMeshes.text(), false, true},
                                          {"nothing", nothing.text(), true, true},
                                          {"nothing at all", GltfBuilder().text(), true, true}}) {
@@ -493,6 +497,23 @@ TEST_F(CommandLineRender, ReportsProgressOnStderr) {
   const Outcome bar = run(draft({"scene.gltf", "-o", "out.png"}, "8x8"), {.terminal = true});
   EXPECT_NE(bar.err.find("\rrendering [=========================] 100% "), std::string::npos) << bar.err;
   EXPECT_TRUE(bar.err.ends_with("s\r\n")) << bar.err;
+}
+
+TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
+  // One light: 12 bytes a texel at least.
+  render(
+      {"scene.gltf", "-o", "out.exr", "--stats", "out.json", "--shadow-memory", "100K", "--quality", "high"});
+  const Json figures = Json::parse(contentOf(path("out.json")));
+  const Json& maps = figures["shadow_maps"];
+  EXPECT_EQ(maps["budget_bytes"], 100 * 1024);
+  EXPECT_LE(maps["bytes"], 100 * 1024);
+  EXPECT_EQ(maps["lowered"], true);
+  EXPECT_LE(figures["lists"]["shadows"][0]["resolution"], 92);
+  expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "100K", "--shadow-res",
+                         "512", "--shadow-error", "0"})),
+              5, "deep shadow maps: take 46 times the 0.1 MiB that they may");
+  expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "much"})), 2,
+              "--shadow-memory");
 }
 
 TEST_F(CommandLineRender, WritesFigures) {

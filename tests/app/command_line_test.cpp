@@ -54,10 +54,12 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--exposure", 1, {"31", "nan"}},
            {"--volume-scale", 1, {"-1", "nan"}},
            {"--volume-g", 1, {"1", "nan"}},
+           {"--volume-extinction", 3, {"-1", "1e7", "nan"}},
            {"--volume-albedo", 3, {"1.1", "nan"}},
            {"--look-from", 3, {"-1e300", "nan"}},
            {"--look-at", 3, {"1e400", "nan"}},
            {"--shadow-res", 1, {"31", "64.5", "1e3", "nan"}},
+           {"--shadow-error", 1, {"-0.1", "0.51", "nan", "foo"}},
            {"--repeat", 1, {"0", "1001"}},
            {"--samples", 1, {"0", "65", "1.5", "nan"}},
        }) {

@@ -11,8 +11,10 @@
 
 #include "gl/program.h"
 #include "shaders/shared/aovs.h"
+#include "shaders/shared/deep.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
@@ -47,6 +49,11 @@ const std::map<std::string, Layout>& cppLayouts() {
         {AT(AovPixel, depth), AT(AovPixel, normalX), AT(AovPixel, normalY), AT(AovPixel, normalZ),
          AT(AovPixel, albedoR), AT(AovPixel, albedoG), AT(AovPixel, albedoB), AT(AovPixel, lights),
          AT(AovPixel, fragments), AT(AovPixel, shadowNodes)}}},
+      {"DeepEvent",
+       {sizeof(shared::DeepEvent),
+        {AT(DeepEvent, ray), AT(DeepEvent, front), AT(DeepEvent, back), AT(DeepEvent, addedR),
+         AT(DeepEvent, addedG), AT(DeepEvent, addedB), AT(DeepEvent, throughputR), AT(DeepEvent, throughputG),
+         AT(DeepEvent, throughputB)}}},
       {"DrawData",
        {sizeof(shared::DrawData),
         {AT(DrawData, worldFromObject), AT(DrawData, normalFromObject), AT(DrawData, indices)}}},
@@ -92,11 +99,11 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ShadowNode", {sizeof(shared::ShadowNode), {AT(ShadowNode, tauRg), AT(ShadowNode, tauBObject)}}},
       {"ShadowPassParams",
        {sizeof(shared::ShadowPassParams),
-        {AT(ShadowPassParams, march), AT(ShadowPassParams, cells), AT(ShadowPassParams, knots)}}},
+        {AT(ShadowPassParams, march), AT(ShadowPassParams, cells), AT(ShadowPassParams, units)}}},
       {"ShadowCounters",
        {sizeof(shared::ShadowCounters),
-        {AT(ShadowCounters, knots), AT(ShadowCounters, unplaced), AT(ShadowCounters, boundHit),
-         AT(ShadowCounters, hidden)}}},
+        {AT(ShadowCounters, units), AT(ShadowCounters, unplaced), AT(ShadowCounters, unfinished),
+         AT(ShadowCounters, boundHit), AT(ShadowCounters, hidden)}}},
       {"RayState",
        {sizeof(shared::RayState),
         {AT(RayState, radianceR), AT(RayState, radianceG), AT(RayState, radianceB), AT(RayState, depth),
@@ -114,8 +121,12 @@ const std::map<std::string, Layout>& cppLayouts() {
         {AT(StressParams, load), AT(StressParams, window), AT(StressParams, lookups)}}},
       {"VolumeData",
        {sizeof(shared::VolumeData),
-        {AT(VolumeData, textureFromWorld), AT(VolumeData, boxMin), AT(VolumeData, boxMax),
-         AT(VolumeData, albedoScale), AT(VolumeData, phase)}}},
+        {AT(VolumeData, extinction), AT(VolumeData, albedo), AT(VolumeData, scattering),
+         AT(VolumeData, phase)}}},
+      {"GridData",
+       {sizeof(shared::GridData),
+        {AT(GridData, gridFromWorld), AT(GridData, boxMin), AT(GridData, boxMax), AT(GridData, bricksScale),
+         AT(GridData, bricksFirst)}}},
   };
   return all;
 }
@@ -184,7 +195,7 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
   for (const std::string name :
-       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams"}) {
+       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams", "GridData"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;

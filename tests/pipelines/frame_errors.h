@@ -20,7 +20,7 @@ inline const Quality fine{.samples = 1,
                           .stepVoxels = 0.5,
                           .shadowError = 1.0 / 4096,
                           .throughputCutoff = 1e-6,
-                          .bilinearSmokeShadows = true};
+                          .smokeShadows = ShadowFilter::Bilinear};
 
 // With SFUMATO_TEST_OUTPUT: the pictures, to be looked at.
 inline void keep(const std::string& name, const image::Image& image) {

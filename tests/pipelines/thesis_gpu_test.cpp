@@ -106,11 +106,15 @@ TEST_F(ThesisGpu, NoLightLeaksIntoAClosedBox) {
     // Walls are thicker than two texels of any of these maps.
     const KnownScene known = tests::insideOfClosedBox(light, 0.2f);
     for (const int resolution : {128, 256, 512, 1024}) {
-      Quality quality = fine;
-      quality.shadowResolution = resolution;
-      const image::Image image = draw(known, quality).radiance;
-      EXPECT_LT(*std::max_element(image.values.begin(), image.values.end()), 1e-3f)
-          << "light " << static_cast<int>(light.type) << ", " << resolution << " texels";
+      for (const ShadowFilter filter : {ShadowFilter::Nearest, ShadowFilter::Bilinear, ShadowFilter::Soft}) {
+        Quality quality = fine;
+        quality.shadowResolution = resolution;
+        quality.surfaceShadows = filter;
+        const image::Image image = draw(known, quality).radiance;
+        EXPECT_LT(*std::max_element(image.values.begin(), image.values.end()), 1e-3f)
+            << "light " << static_cast<int>(light.type) << ", " << resolution << " texels, "
+            << nameOf(filter);
+      }
     }
   }
 }

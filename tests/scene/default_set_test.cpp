@@ -80,6 +80,19 @@ TEST(DefaultSet, HasGroundBelowTwoLightsAndACamera) {
   }
 }
 
+TEST(DefaultSet, LightsCanBeHadAlone) {
+  Scene scene;
+  addDefaultLights(scene);
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_TRUE(scene.instances.empty());
+  for (const Light& light : scene.lights) {
+    EXPECT_EQ(light.type, LightType::Directional);
+    EXPECT_NEAR(glm::length(light.direction), 1, 1e-12);
+    EXPECT_LT(light.direction.y, 0);
+    EXPECT_LT(light.direction.z, 0);  // onto what the framing camera sees
+  }
+}
+
 TEST(DefaultSet, KeepsWhatTheSceneHas) {
   Scene scene;
   scene.materials.resize(2);

@@ -90,6 +90,17 @@ TEST(GltfAnimation, CamerasAndLightsMoveAlong) {
   expectNear(scene.cameras.at(0).worldFromView[3], {5, 1, 0});
 }
 
+TEST(GltfAnimation, LightsTurn) {
+  GltfBuilder gltf = test::triangle();
+  gltf.light({{"type", "spot"}, {"spot", Json::object()}});
+  gltf.light({{"type", "directional"}});
+  for (const int node : {1, 2})  // half a turn about Y in a second
+    animate(gltf, node, "rotation", {0, 1}, "VEC4", {0, 0, 0, 1, 0, 1, 0, 0});
+  for (const auto& [seconds, direction] :
+       {std::pair(0.0, glm::dvec3(0, 0, -1)), {0.5, glm::dvec3(-1, 0, 0)}, {1.0, glm::dvec3(0, 0, 1)}})
+    for (const Light& light : load(gltf, seconds).lights) expectNear(light.direction, direction);
+}
+
 TEST(GltfAnimation, WithoutATimeNothingOfItIsRead) {
   GltfBuilder gltf = test::triangle();
   animate(gltf, 0, "translation", {1, 0}, "VEC3", {1, 0, 0});

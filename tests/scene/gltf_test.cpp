@@ -719,6 +719,18 @@ TEST(GltfLight, EveryType) {
   EXPECT_EQ(scene.lights[3].outerCone, std::numbers::pi / 2);  // single precision's pi/2 is a hair more
 }
 
+TEST(GltfLight, MayCastNoShadow) {
+  GltfBuilder gltf;
+  gltf.light({{"type", "point"}});
+  gltf.light({{"type", "point"}, {"extras", {{"shadow", false}}}});
+  gltf.light({{"type", "spot"}, {"spot", Json::object()}})["extras"]["shadow"] = false;
+  gltf.light({{"type", "point"}, {"extras", {{"shadow", false}}}})["extras"]["shadow"] =
+      true;  // the node's counts
+  std::vector<bool> cast;
+  for (const Light& light : load(gltf).lights) cast.push_back(light.castsShadow);
+  EXPECT_EQ(cast, (std::vector<bool>{true, false, false, true}));
+}
+
 // --- Volumes ---
 
 TEST(GltfVolume, AllExtras) {
@@ -729,6 +741,7 @@ TEST(GltfVolume, AllExtras) {
                       {{"volume", "smoke/a 1.vdb"},
                        {"volume_grid", "density"},
                        {"volume_scale", 7},
+                       {"volume_extinction", {1, 0, 2.5}},
                        {"volume_albedo", {0, 0.5, 1}},
                        {"volume_g", -0.5}}}});
   gltf.add("nodes", {{"extras", {{"volume", "b.vdb"}}}});
@@ -739,11 +752,13 @@ TEST(GltfVolume, AllExtras) {
   EXPECT_EQ(smoke.file, (folder.path() / "smoke/a 1.vdb").string());
   EXPECT_EQ(smoke.gridName, "density");
   EXPECT_EQ(smoke.scale, 7);
+  EXPECT_EQ(smoke.extinctionColour, glm::dvec3(1, 0, 2.5));
   EXPECT_EQ(smoke.albedo, glm::dvec3(0, 0.5, 1));
   EXPECT_EQ(smoke.g, -0.5);
   expectNear(glm::dvec3(smoke.worldFromGridWorld[3]), {1, 2, 3});
   EXPECT_EQ(scene.volumes[1].gridName, "");
   EXPECT_EQ(scene.volumes[1].scale, 1);
+  EXPECT_EQ(scene.volumes[1].extinctionColour, glm::dvec3(1));
   EXPECT_EQ(scene.volumes[1].albedo, glm::dvec3(0.9));
   EXPECT_EQ(scene.volumes[1].g, 0);
 }

@@ -52,6 +52,12 @@ Medium medium(DensityGrid grid, const glm::dmat4& worldFromIndex, double scale) 
   return m;
 }
 
+// What is the same in all channels.
+double grey(const glm::dvec3& v) {
+  EXPECT_EQ(v, glm::dvec3(v.x));
+  return v.x;
+}
+
 glm::dmat4 shearedAndRotated() {
   const glm::dmat4 shear(0.25, 0, 0, 0, 0.1, 0.2, 0, 0, -0.05, 0.15, 0.3, 0, 0, 0, 0, 1);
   const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
@@ -89,7 +95,7 @@ TEST(ReferenceMarch, ExtinctionIsDensityTimesScaleInWorldSpace) {
   const Medium m = medium(linearGrid(), shearedAndRotated(), 0.5);
   const glm::dvec3 pIndex(1.25, 7.5, 5.75);
   const glm::dvec3 pWorld(m.worldFromIndex * glm::dvec4(pIndex, 1));
-  EXPECT_NEAR(extinctionAt(m, pWorld), 0.5 * linearField(pIndex), 1e-11);
+  EXPECT_NEAR(grey(extinctionAt(m, pWorld)), 0.5 * linearField(pIndex), 1e-11);
 }
 
 TEST(ReferenceMarch, RaysAreClippedToTheBox) {
@@ -122,7 +128,7 @@ TEST(ReferenceMarch, AMediumFlattenedToNothingIsNowhere) {
   double tMin = 0;
   double tMax = 100;
   EXPECT_FALSE(clipToMedium(flat, {0, -5, 0}, {0, 1, 0}, tMin, tMax));
-  EXPECT_EQ(opticalDepth({&flat, 1}, {0, -5, 0}, {0, 5, 0}, 0.5), 0);
+  EXPECT_EQ(grey(opticalDepth({&flat, 1}, {0, -5, 0}, {0, 5, 0}, 0.5)), 0);
 }
 
 // Along an axis the profile is a trapezoid: two ramps of one voxel at the faces and n - 1 voxels of 1
@@ -132,10 +138,10 @@ TEST(ReferenceMarch, OpticalDepthOfASlabAlongAnAxis) {
   const double voxel = 0.25;
   const Medium m = medium(onesGrid(n), glm::scale(glm::dmat4(1.0), glm::dvec3(voxel)), 3);
   const double expected = 3 * n * voxel;
-  EXPECT_NEAR(opticalDepth({&m, 1}, {-10, 1, 1}, {10, 1, 1}, halfVoxel), expected, 1e-12);
-  EXPECT_NEAR(opticalDepth({&m, 1}, {1, 10, 1}, {1, -10, 1}, halfVoxel), expected, 1e-12);
+  EXPECT_NEAR(grey(opticalDepth({&m, 1}, {-10, 1, 1}, {10, 1, 1}, halfVoxel)), expected, 1e-12);
+  EXPECT_NEAR(grey(opticalDepth({&m, 1}, {1, 10, 1}, {1, -10, 1}, halfVoxel)), expected, 1e-12);
   // From the middle (index 3.5) outwards: half of it.
-  EXPECT_NEAR(opticalDepth({&m, 1}, {1, 1, 3.5 * voxel}, {1, 1, 10}, halfVoxel), expected / 2, 1e-12);
+  EXPECT_NEAR(grey(opticalDepth({&m, 1}, {1, 1, 3.5 * voxel}, {1, 1, 10}, halfVoxel)), expected / 2, 1e-12);
 }
 
 // A slanted ray meets the same trapezoid, stretched by 1 / cosine, but steps no longer end at its kinks; the
@@ -148,8 +154,8 @@ TEST(ReferenceMarch, OpticalDepthOfASlabAtASlant) {
   const double expected = n / direction.x;
   const glm::dvec3 from = middle - 30.0 * direction;
   const glm::dvec3 to = middle + 30.0 * direction;
-  EXPECT_NEAR(opticalDepth({&m, 1}, from, to, 0.5), expected, 0.5 * 0.5 / 2);
-  EXPECT_NEAR(opticalDepth({&m, 1}, from, to, 0.01), expected, 0.01 * 0.01 / 2);
+  EXPECT_NEAR(grey(opticalDepth({&m, 1}, from, to, 0.5)), expected, 0.5 * 0.5 / 2);
+  EXPECT_NEAR(grey(opticalDepth({&m, 1}, from, to, 0.01)), expected, 0.01 * 0.01 / 2);
 }
 
 // On a line through a linear field the mean is the value in the middle, and the midpoint rule is exact.
@@ -160,17 +166,27 @@ TEST(ReferenceMarch, OpticalDepthInAShearedAndRotatedGrid) {
   const glm::dvec3 from(m.worldFromIndex * glm::dvec4(fromIndex, 1));
   const glm::dvec3 to(m.worldFromIndex * glm::dvec4(toIndex, 1));
   const double expected = 0.125 * glm::distance(from, to) * linearField((fromIndex + toIndex) / 2.0);
-  EXPECT_NEAR(opticalDepth({&m, 1}, from, to, 0.5), expected, 1e-12 * expected);
-  EXPECT_NEAR(opticalDepth({&m, 1}, to, from, 7), expected, 1e-12 * expected);
+  EXPECT_NEAR(grey(opticalDepth({&m, 1}, from, to, 0.5)), expected, 1e-12 * expected);
+  EXPECT_NEAR(grey(opticalDepth({&m, 1}, to, from, 7)), expected, 1e-12 * expected);
 }
 
 TEST(ReferenceMarch, OpticalDepthsAdd) {
   const std::vector<Medium> media = {
       medium(onesGrid(4), glm::dmat4(1.0), 1), medium(onesGrid(8), glm::dmat4(1.0), 2),
       medium(onesGrid(4), glm::translate(glm::dmat4(1.0), glm::dvec3(0, 50, 0)), 100)};
-  EXPECT_NEAR(opticalDepth(media, {-9, 1, 1}, {19, 1, 1}, halfVoxel), 4 + 2 * 8, 1e-12);
-  EXPECT_EQ(opticalDepth(media, {1, 1, 1}, {1, 1, 1}, 0.5), 0);
-  EXPECT_EQ(opticalDepth({}, {-9, 1, 1}, {19, 1, 1}, 0.5), 0);
+  EXPECT_NEAR(grey(opticalDepth(media, {-9, 1, 1}, {19, 1, 1}, halfVoxel)), 4 + 2 * 8, 1e-12);
+  EXPECT_EQ(grey(opticalDepth(media, {1, 1, 1}, {1, 1, 1}, 0.5)), 0);
+  EXPECT_EQ(grey(opticalDepth({}, {-9, 1, 1}, {19, 1, 1}, 0.5)), 0);
+}
+
+TEST(ReferenceMarch, ColoursMultiplyTheExtinctionOfEachMedium) {
+  std::vector<Medium> media = {medium(onesGrid(4), glm::dmat4(1.0), 1),
+                               medium(onesGrid(8), glm::dmat4(1.0), 2)};
+  media[0].extinctionColour = {1, 0.5, 0};
+  media[1].extinctionColour = {0.25, 0, 3};
+  EXPECT_EQ(extinctionAt(media[1], {1, 1, 1}), glm::dvec3(0.5, 0, 6));
+  const glm::dvec3 depth = opticalDepth(media, {-9, 1, 1}, {19, 1, 1}, halfVoxel);
+  EXPECT_NEAR(glm::distance(depth, {4 + 4, 2, 48}), 0, 1e-12);
 }
 
 // Simpson's rule over the cosine; so many intervals leave an error of about 1e-11 at g = 0.95.

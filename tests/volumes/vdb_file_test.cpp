@@ -102,7 +102,7 @@ float valueAt(const DensityGrid& grid, int i, int j, int k) {
   const glm::ivec3 p = glm::ivec3(i, j, k) - grid.origin;
   if (p.x < 0 || p.y < 0 || p.z < 0 || p.x >= grid.size.x || p.y >= grid.size.y || p.z >= grid.size.z)
     return 0;
-  return grid.values[grid.valueIndex(p.x, p.y, p.z)];
+  return grid.value(p);
 }
 
 // Every voxel of `grid`, and one voxel beyond, is what OpenVDB says.
@@ -404,6 +404,59 @@ TEST_F(VdbFile, RefusesAnEmptyGrid) {
   save(path("a.vdb"), {fogGrid("density")});
   EXPECT_EQ(errorOf(ExitCode::Input, [&] { readVdb(path("a.vdb"), ""); }),
             "a.vdb: grid \"density\" is empty: give one with an active density above 0");
+}
+
+TEST_F(VdbFile, ReadsWhatIsMostlyEmptyInBricks) {
+  // As a box 16 GiB; voxels in all corners of leaves, tiles of both kinds, and a cloud.
+  const auto grid = fogGrid("density");
+  const auto cloud = smallCloud();
+  grid->tree().merge(cloud->tree());
+  auto accessor = grid->getAccessor();
+  for (int i = 0; i < 500; ++i)
+    accessor.setValue({-300 + (i * 757) % 4000, (i * 113) % 250, (i * 1499) % 4000},
+                      0.5f + 0.001f * static_cast<float>(i));
+  grid->sparseFill(openvdb::CoordBBox({1000, 0, 1600}, {1023, 15, 1615}), 0.5f, true);
+  grid->sparseFill(openvdb::CoordBBox({2000, 64, 64}, {2015, 71, 71}), 9.f, false);
+  save(path("a.vdb"), {grid});
+  const DensityGrid read = readVdb(path("a.vdb"), "");
+  ASSERT_FALSE(read.dense());
+  EXPECT_LT(read.bytes(), size_t{64} << 20);
+  size_t found = 0;
+  forEachRow(read, [&](glm::ivec3 voxel, std::span<const float> row) {
+    for (const float value : row) {
+      const openvdb::Coord at(read.origin.x + voxel.x, read.origin.y + voxel.y, read.origin.z + voxel.z);
+      float expected = 0;
+      if (!accessor.probeValue(at, expected)) expected = 0;
+      if (value != expected) ADD_FAILURE() << at << ": " << value << " for " << expected;
+      found += value != 0;
+      ++voxel.x;
+    }
+  });
+  EXPECT_EQ(found, grid->activeVoxelCount());
+}
+
+TEST_F(VdbFile, KeepsADenseBoxWhereBricksWouldSaveLittle) {
+  const auto grid = fogGrid("density");
+  grid->denseFill(openvdb::CoordBBox({0, 0, 0}, {299, 299, 299}), 0.25f, true);  // 104 MiB
+  save(path("a.vdb"), {grid});
+  const DensityGrid read = readVdb(path("a.vdb"), "");
+  EXPECT_TRUE(read.dense());
+  EXPECT_EQ(read.value({150, 150, 150}), 0.25f);
+}
+
+TEST_F(VdbFile, SaysWhereTheMapOfBricksIsTooLarge) {
+  const auto thin = fogGrid("density");  // a row of voxels from end to end of what OpenVDB can hold
+  thin->getAccessor().setValue({-1'000'000'000, 0, 0}, 1.f);
+  thin->getAccessor().setValue({1'000'000'000, 0, 0}, 1.f);
+  save(path("a.vdb"), {thin});
+  const std::string line = errorOf(ExitCode::Memory, [&] { readVdb(path("a.vdb"), ""); });
+  EXPECT_NE(line.find("2000000003 x 3 x 3 voxels"), std::string::npos) << line;
+
+  const auto plane = fogGrid("density");
+  plane->getAccessor().setValue({0, 0, 0}, 1.f);
+  plane->getAccessor().setValue({200'000, 200'000, 0}, 1.f);  // 2.3 GiB of map
+  save(path("b.vdb"), {plane});
+  errorOf(ExitCode::Memory, [&] { readVdb(path("b.vdb"), ""); });
 }
 
 TEST_F(VdbFile, SaysHowMuchADenseBoxWouldTakeBeforeTakingIt) {

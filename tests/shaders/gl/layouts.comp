@@ -1,7 +1,9 @@
 // Every struct that C++ and GLSL share, in a storage block each, all of them active; layout_test.cpp reflects them.
 #include "shaders/shared/aovs.h"
+#include "shaders/shared/deep.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/geometry.h"
+#include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"

@@ -1,0 +1,109 @@
+#include "pipelines/shadow_resolution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lights/light_reach.h"
+#include "scene/visible_hull.h"
+
+namespace sfumato::pipelines {
+
+using glm::dvec2;
+using glm::dvec3;
+using scene::Bounds;
+
+namespace {
+
+constexpr double slack = 1e-6;  // of everything's size: rounding loses no light
+
+// The box around what a light reaches: a sphere, or the part of one in a cone.
+Bounds boxOf(const lights::Light& light) {
+  const double reach = lights::reach(light) * (1 + slack);
+  Bounds box{light.position, light.position};
+  for (int axis = 0; axis < 3; ++axis) {
+    double up = 1;
+    double down = 1;
+    if (light.type == lights::LightType::Spot) {
+      const double angle = std::acos(std::clamp(light.direction[axis], -1.0, 1.0));
+      up = std::cos(std::clamp(angle - light.outerCone, 0.0, M_PI_2));
+      down = std::cos(std::clamp(M_PI - angle - light.outerCone, 0.0, M_PI_2));
+    }
+    box.high[axis] += up * reach;
+    box.low[axis] -= down * reach;
+  }
+  return box;
+}
+
+bool reachesSome(const lights::Light& light, const Bounds& box) {
+  const dvec3 nearest = glm::clamp(light.position, box.low, box.high);
+  if (glm::distance(light.position, nearest) > lights::reach(light) * (1 + slack)) return false;
+  if (light.type == lights::LightType::Point) return true;
+  const dvec3 away = box.centre() - light.position;
+  const double distance = glm::length(away);
+  if (distance <= box.radius()) return true;
+  const double angle = std::acos(std::clamp(glm::dot(away / distance, light.direction), -1.0, 1.0));
+  return angle <= light.outerCone + std::asin(box.radius() / distance) + slack;
+}
+
+// Of `box`, what the light may reach; empty where it does not.
+Bounds litPart(const lights::Light& light, const Bounds& box) {
+  if (light.type == lights::LightType::Directional) return box;
+  const Bounds reached = boxOf(light);
+  const Bounds lit{glm::max(box.low, reached.low), glm::min(box.high, reached.high)};
+  if (glm::any(glm::greaterThan(lit.low, lit.high)) || !reachesSome(light, lit)) return {};
+  return lit;
+}
+
+// On the image, in units of its height, from its middle.
+dvec2 onImage(const dvec3& pWorld, const scene::Camera& camera, const glm::dmat4& viewFromWorld) {
+  const dvec3 p(viewFromWorld * glm::dvec4(pWorld, 1));
+  if (camera.orthographic) return dvec2(p) / (2 * camera.yMagnitude);
+  return dvec2(p) / (2 * std::tan(camera.yfov / 2) * std::max(-p.z, 1e-12));
+}
+
+glm::dmat4 worldFromUnit(const Bounds& box) {
+  glm::dmat4 result(1.0);
+  for (int axis = 0; axis < 3; ++axis) result[axis][axis] = std::max(box.high[axis] - box.low[axis], 1e-9);
+  result[3] = glm::dvec4(box.low, 1);
+  return result;
+}
+
+}  // namespace
+
+double pixelsLit(const lights::Light& light, std::span<const Bounds> parts, const scene::Camera& camera,
+                 int width, int height) {
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  const double aspect = static_cast<double>(width) / height;
+  bool reached = false;
+  dvec2 low(scene::infinity);
+  dvec2 high(-scene::infinity);
+  for (const Bounds& part : parts) {
+    if (part.empty()) continue;
+    const Bounds lit = litPart(light, part);
+    if (lit.empty()) continue;
+    reached = true;
+    for (const dvec3& p : scene::visiblePoints({}, {worldFromUnit(lit)}, camera, aspect)) {
+      const dvec2 place = onImage(p, camera, viewFromWorld);
+      low = glm::min(low, place);
+      high = glm::max(high, place);
+    }
+  }
+  if (!reached) return -1;
+  const dvec2 size = glm::max(high - low, dvec2(0));
+  return std::min(std::max(size.x, size.y) * height, double(std::max(width, height)));
+}
+
+std::vector<int> shadowResolutions(std::span<const lights::Light> lights, std::span<const Bounds> parts,
+                                   const scene::Camera& camera, int width, int height,
+                                   const Quality& quality) {
+  std::vector<int> resolutions;
+  for (const lights::Light& light : lights) {
+    const double pixels = light.castsShadow ? pixelsLit(light, parts, camera, width, height) : -1;
+    const double share = quality.exactShadowResolution ? 1 : std::min(pixels / pixelsOfFullResolution, 1.0);
+    resolutions.push_back(
+        pixels < 0 ? 0 : std::max(32, static_cast<int>(std::ceil(quality.shadowResolution * share))));
+  }
+  return resolutions;
+}
+
+}  // namespace sfumato::pipelines
