@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
+#include "scene/light_faces.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/view.h"
@@ -104,7 +105,7 @@ class Builder {
   size_t count(const FaceProjection& face) {
     size_t units = 0;
     drawFace(face, [&](const lists::Window& window) {
-      units += write({face, 0, window}, true, knots_.bytes() / unitBytes).units;
+      units += write({face, 0, window}, SHADOW_ALL, knots_.bytes() / unitBytes).units;
     });
     return units;
   }
@@ -118,7 +119,6 @@ class Builder {
     size_t firstTexelOfFace;
     lists::Window cells;
   };
-  static constexpr size_t windowTexels = 1 << 20;
 
   static gl::ShaderDefines writerDefines(const MapInputs& inputs) {
     gl::ShaderDefines defines;
@@ -192,10 +192,10 @@ class Builder {
   // has grown, or behind the block that is full. False when it cannot grow.
   bool writeKnots(const FaceWindow& window, LightMap& map) {
     size_t wanted = 1;
-    for (bool all = true; wanted > 0; all = false) {
+    for (int which = SHADOW_ALL; wanted > 0; which = SHADOW_UNPLACED) {
       const size_t room = reserveUnits(wanted);
       if (room == 0) return false;
-      const shared::ShadowCounters counted = write(window, all, room);
+      const shared::ShadowCounters counted = write(window, which, room);
       const size_t written = counted.units - counted.unplaced;
       if (written == 0 && counted.unplaced > 0 && room == unitsOfBlock())
         base::fail(base::ExitCode::Memory,
@@ -211,21 +211,26 @@ class Builder {
     return true;
   }
 
-  // Writes the knots of a window's texels, `all` or those that found no room, into `room` units from
-  // firstUnit_ on.
-  shared::ShadowCounters write(const FaceWindow& window, bool all, size_t room) {
+  // Writes the knots of a window's texels, `which` of them (SHADOW_*), into `room` units from firstUnit_ on.
+  shared::ShadowCounters write(const FaceWindow& window, int which, size_t room) {
     const gl::Profiler::Scope time(device_.profiler(), "knots");
     counters_.clear();
     useFace(window.face);
-    useWindow(window, all);
+    useWindow(window, which);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
     if (inputs_.casters.listed) lists_->bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
     inputs_.volumes.bind();
     knots_.bindStorageRange(STORAGE_SHADOW_KNOTS, firstUnit_ * unitBytes, room * unitBytes);
     counters_.bindStorage(STORAGE_COUNTERS);
-    gl::dispatchLinear(writer_, window.cells.cells);
-    gl::storageBarrier();
-    return counters_.readValue<shared::ShadowCounters>();
+    for (;;) {
+      gl::dispatchLinear(writer_, window.cells.cells);
+      gl::storageBarrier();
+      auto counted = counters_.readValue<shared::ShadowCounters>();
+      if (counted.unfinished == 0) return counted;
+      counted.unfinished = 0;
+      counters_.writeValue(counted);
+      useWindow(window, SHADOW_UNFINISHED);
+    }
   }
 
   size_t unitsOfBlock() const { return static_cast<size_t>(device_.limits().storageBlockBytes) / unitBytes; }
@@ -249,15 +254,15 @@ class Builder {
     return true;
   }
 
-  // The window's texels and what is done with them; `all`, or those that found no room.
-  void useWindow(const FaceWindow& window, bool all) {
+  // The window's texels, and which of them are written.
+  void useWindow(const FaceWindow& window, int which) {
     const size_t firstTexel = window.firstTexelOfFace + window.cells.firstCell;
     const size_t bound = firstTexel / texelAlignment * texelAlignment;
     shared::ShadowPassParams params{};
     params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(error_), 0.f, 0.f};
     params.cells = {static_cast<int>(window.cells.firstCell), static_cast<int>(window.cells.cells), 0,
                     static_cast<int>(firstTexel - bound)};
-    params.units = {static_cast<int>(firstUnit_), all ? 1 : 0, 0, 0};
+    params.units = {static_cast<int>(firstUnit_), which, 0, 0};
     passBlock_.writeValue(params);
     passBlock_.bindUniform(UNIFORM_PASS);
     texels_.bindStorageRange(STORAGE_SHADOW_TEXELS, bound * sizeof(shared::ShadowTexel),
@@ -313,17 +318,6 @@ size_t countUnits(gl::Device& device, const MapInputs& inputs, double error,
 
 }  // namespace
 
-std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
-                                    std::span<const glm::dvec3> receivers,
-                                    std::span<const glm::dvec3> castingPoints) {
-  const int side = faceSide(resolution);
-  if (light.type == lights::LightType::Directional)
-    return {directionalFace(light.direction, side, receivers, castingPoints)};
-  if (light.type == lights::LightType::Spot && light.outerCone <= widestCone)
-    return {coneFace(light.position, light.direction, light.outerCone, side)};
-  return cubeFaces(light.position, side);
-}
-
 Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
   const auto readable = static_cast<size_t>(device.limits().textureBufferTexels);
   budgetBytes_ = inputs.budget.bytes != 0 ? inputs.budget.bytes : readable * unitBytes;
@@ -374,7 +368,7 @@ size_t Maps::arrange(const MapInputs& inputs) {
     projections_.emplace_back();
     if (!inputs.lights[i].castsShadow || plan_.resolutions[i] == 0) continue;
     projections_.back() =
-        facesOf(inputs.lights[i], plan_.resolutions[i], inputs.receivers, inputs.castingPoints);
+        scene::facesOf(inputs.lights[i], plan_.resolutions[i], inputs.receivers, inputs.castingPoints);
     map.resolution = plan_.resolutions[i];
     map.firstFace = faces;
     map.faces = static_cast<int>(projections_.back().size());

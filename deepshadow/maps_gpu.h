@@ -32,11 +32,6 @@ struct Casters {
   gl::ShaderDefines defines;     // of the programs that they are drawn with
 };
 
-// The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
-std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
-                                    std::span<const glm::dvec3> receivers,
-                                    std::span<const glm::dvec3> castingPoints);
-
 struct MapInputs {
   const std::vector<lights::Light>& lights;
   const Casters& casters;
@@ -90,8 +85,8 @@ class Maps {
   size_t predictedBytes() const { return predictedBytes_; }           // that were counted; 0: no need
   size_t budgetBytes() const { return budgetBytes_; }
   const std::vector<FaceProjection>& faces(size_t light) const { return projections_[light]; }
-  // Texels whose march through smoke or walk over their list was cut at its bound; 0 unless steps are
-  // absurdly short or a light passes thousands of objects that shadow once.
+  // Texels whose march through smoke was cut at its bound, so that it is coarser than it should be; 0 unless
+  // steps are absurdly short. Lists of surfaces are walked to their end, in several dispatches if need be.
   size_t cutMarches() const { return cutMarches_; }
   // For shaders that include shaders/deepshadow/lookup.glsl.
   void bind() const;

@@ -37,10 +37,6 @@ shared::LightData lightData(const Light& light, const ShadowFaces& shadow, int n
   return data;
 }
 
-int cellsAlong(int pixels) {
-  return (pixels + LightLists::cellSide - 1) / LightLists::cellSide;
-}
-
 }  // namespace
 
 LightLists::Cells LightLists::cellsOf(int width, int height, const glm::ivec4& window) {
