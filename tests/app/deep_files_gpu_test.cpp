@@ -33,8 +33,8 @@ GltfBuilder emptyScene() {
   gltf.add("nodes", {{"camera", 0}, {"translation", {0, 0, 5}}});
   gltf.light({{"type", "directional"}, {"intensity", 3}, {"name", "sun"}})["rotation"] = {-0.70710678, 0, 0,
                                                                                           0.70710678};
-  gltf.light({{"type", "point"}, {"intensity", 0.001}, {"range", 0.5}, {"name", "lamp"}})["translation"] = {
-      3, 3, 3};
+  gltf.light({{"type", "point"}, {"intensity", 0.001}, {"range", 2}, {"name", "lamp"}})["translation"] = {
+      1.2, 0.5, 0.5};
   return gltf;
 }
 
