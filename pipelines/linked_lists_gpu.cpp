@@ -38,6 +38,7 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
   if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
+  if (volumes.burning()) defines.emplace_back("FIRE", "1");
   if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
   return gl::joined(defines, volumes.defines());
 }
