@@ -11,6 +11,7 @@
 #include "tests/image/deep_compositing.h"
 #include "tests/pipelines/frame_errors.h"
 #include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/media_scenes.h"
 
 namespace sfumato::pipelines {
 namespace {
@@ -76,7 +77,8 @@ void expectSorted(const std::vector<DeepSample>& samples) {
 
 TEST_F(DeepGpu, FlattenedItIsThePictureAndChangesNone) {
   size_t coloured = 0;
-  for (const KnownScene& known : {tests::shinySpheres(), tests::paneBeforeSmoke(), tests::smokeAndGlass()}) {
+  for (const KnownScene& known :
+       {tests::shinySpheres(), tests::smokeAndGlass(), tests::colouredBalls(), tests::fireBehindSmoke()}) {
     SCOPED_TRACE(known.name);
     const Frame frame = draw(known, smooth(), {.deep = true});
     ASSERT_TRUE(frame.deep);
