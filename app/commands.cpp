@@ -246,7 +246,7 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE.exr")
       ->check(fileName());
   add("--deep-shadow", options.deepShadows,
-      "Write a light's deep shadow map so; LIGHT is its name or number; may be given again")
+      "Write the deep shadow map of a light so: its name or number; may recur")
       ->type_name("LIGHT FILE.exr")
       ->check(fileName())
       ->allow_extra_args(false);
