@@ -102,6 +102,26 @@ void addSmoke(CLI::App& command, RenderOptions& options) {
       ->type_name("BYTES|256M|2G");
 }
 
+void addFire(CLI::App& command, RenderOptions& options) {
+  CLI::Option* fire =
+      command
+          .add_option("--fire", options.fire, "The grid of its file that glows, e.g. temperature or flame")
+          ->type_name("NAME")
+          ->group("Smoke");
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->needs(fire)->group("Smoke");
+  };
+  add("--fire-kelvin", options.fireKelvin, "Glow as a black body, so hot per unit: 1e-6 to 1e6")
+      ->type_name("KELVIN")
+      ->check(between(1e-6, 1e6));
+  add("--fire-strength", options.fireStrength, "Its radiance, times this: 0 to 1e6, else 1")
+      ->type_name("FACTOR")
+      ->check(between(0.0, 1e6));
+  add("--fire-lights", options.fireLights, "Point lights in it that light the rest: 0 to 64, else 0")
+      ->type_name("COUNT")
+      ->check(wholeBetween(0, 64));
+}
+
 void addView(CLI::App& command, RenderOptions& options) {
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command.add_option(name, value, help)->group("View");
@@ -393,6 +413,7 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   command.add_option("SCENE", options.scene, ".gltf or .glb; its nodes may name smoke (extras \"volume\")")
       ->check(fileName());
   addSmoke(command, options);
+  addFire(command, options);
   addView(command, options);
   addQuality(command, options);
   addScattering(command, options);
@@ -440,6 +461,7 @@ CLI::App& addStress(CLI::App& program, StressOptions& options, Verbosity& verbos
       ->check(range(1, 65536))
       ->group("Scene");
   addSmoke(command, options.shot);
+  addFire(command, options.shot);
   addView(command, options.shot);
   addQuality(command, options.shot);
   addStressOutput(command, options);

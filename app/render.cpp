@@ -39,6 +39,22 @@ double yfovOf(const RenderOptions& options) {
   return glm::radians(options.fovDegrees.value_or(40));
 }
 
+scene::FirePlacement fireOf(const RenderOptions& options) {
+  scene::FirePlacement fire{options.fire, volumes::usualLook(options.fire), options.fireLights};
+  if (options.fireKelvin) fire.look = {.kelvin = options.fireKelvin};
+  fire.look.strength = options.fireStrength;
+  return fire;
+}
+
+// Of a volume, for the metadata.
+std::string fireText(const scene::FirePlacement& fire) {
+  if (fire.gridName.empty()) return "";
+  return fmt::format(
+      ", fire \"{}\", {}, strength {}, lights {}", fire.gridName,
+      fire.look.kelvin ? fmt::format("{} K per unit", *fire.look.kelvin) : std::string("colours"),
+      fire.look.strength, fire.lights);
+}
+
 void addVolumes(const RenderOptions& options, scene::Scene& scene) {
   for (const std::string& file : options.volumes) {
     scene::VolumePlacement volume;
@@ -48,6 +64,7 @@ void addVolumes(const RenderOptions& options, scene::Scene& scene) {
     volume.extinctionColour = options.volumeExtinction;
     volume.albedo = options.volumeAlbedo;
     volume.g = options.volumeG;
+    if (!options.fire.empty()) volume.fire = fireOf(options);
     scene.volumes.push_back(volume);
   }
 }
@@ -176,9 +193,9 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
   for (size_t i = 0; i < shot.media.size(); ++i)
     result.emplace_back(
         fmt::format("sfumato:volume{}", i),
-        fmt::format("{}: grid \"{}\", scale {}, extinction {}, albedo {}, g {}", shot.scene.volumes[i].file,
+        fmt::format("{}: grid \"{}\", scale {}, extinction {}, albedo {}, g {}{}", shot.scene.volumes[i].file,
                     shot.media[i].grid.name, shot.media[i].scale, numbers(shot.media[i].extinctionColour),
-                    numbers(shot.media[i].albedo), shot.media[i].g));
+                    numbers(shot.media[i].albedo), shot.media[i].g, fireText(shot.scene.volumes[i].fire)));
   return result;
 }
 
@@ -228,6 +245,9 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
     base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {}\n", scene.volumes[i].file, grid.name,
                 grid.size.x, grid.size.y, grid.size.z, base::sizeText(grid.bytes()));
+    if (shot.media[i].fire)
+      base::print("fire     grid \"{}\", {}\n", shot.media[i].fire->grid.name,
+                  base::sizeText(shot.media[i].fire->grid.bytes()));
   }
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
@@ -299,6 +319,7 @@ Shot makeShot(const RenderOptions& options) {
   if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
   addVolumes(options, shot.scene);
   shot.media = scene::readMedia(shot.scene);
+  scene::addFireLights(shot.scene, shot.media);
   if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
   lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);

@@ -222,6 +222,20 @@ openvdb::Mat4d rowVectorMatrix(const glm::dmat4& matrix) {
   return result;
 }
 
+openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
+  const auto vdb = openvdb::FloatGrid::create(0.f);
+  vdb->setName(grid.name);
+  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
+  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
+  const openvdb::Coord origin(grid.origin.x, grid.origin.y, grid.origin.z);
+  const openvdb::Coord size(grid.size.x, grid.size.y, grid.size.z);
+  // Dense wants to be able to write, but copyFromDense only reads.
+  const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
+      openvdb::CoordBBox(origin, origin + size.offsetBy(-1)), const_cast<float*>(grid.values.data()));
+  openvdb::tools::copyFromDense(dense, *vdb, 0.f);
+  return vdb;
+}
+
 }  // namespace
 
 DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes) {
@@ -260,25 +274,22 @@ DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridNa
 }
 
 void writeVdb(const std::filesystem::path& path, const DensityGrid& grid) {
-  openvdb::initialize();
-  const auto vdb = openvdb::FloatGrid::create(0.f);
-  vdb->setName(grid.name);
-  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
-  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
-  const openvdb::Coord origin(grid.origin.x, grid.origin.y, grid.origin.z);
-  const openvdb::Coord size(grid.size.x, grid.size.y, grid.size.z);
-  // Dense wants to be able to write, but copyFromDense only reads.
-  const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
-      openvdb::CoordBBox(origin, origin + size.offsetBy(-1)), const_cast<float*>(grid.values.data()));
-  openvdb::tools::copyFromDense(dense, *vdb, 0.f);
+  const DensityGrid* one = &grid;
+  writeVdb(path, {&one, 1});
+}
 
+void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* const> grids) {
+  openvdb::initialize();
+  openvdb::GridCPtrVec written;
+  for (const DensityGrid* grid : grids) written.push_back(toVdb(*grid));
   base::PendingFile pending(path);
   try {
-    openvdb::io::File(pending.temporary().string()).write({vdb});
+    openvdb::io::File(pending.temporary().string()).write(written);
     // OpenVDB does not say when the disk is full, so the file is looked through.
     const std::vector<std::byte> file = base::readFile(pending.temporary());
     const VdbDirectory directory = readVdbDirectory(file, path.string());
-    layOutVdbGrid(file, path.string(), directory, directory.entries.at(0));
+    for (size_t i = 0; i < written.size(); ++i)
+      layOutVdbGrid(file, path.string(), directory, directory.entries.at(i));
   } catch (const std::exception& error) {
     fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), shown(error.what()));
   }
@@ -296,6 +307,10 @@ DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_
 }
 
 void writeVdb(const std::filesystem::path& path, const DensityGrid&) {
+  writeVdb(path, std::span<const DensityGrid* const>());
+}
+
+void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* const>) {
   base::fail(base::ExitCode::Input, "{}: cannot be written: this build has no OpenVDB", path.string());
 }
 

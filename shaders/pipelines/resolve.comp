@@ -108,6 +108,7 @@ void main() {
     // Collect the next steps that hold smoke; empty ones cost no more than their density.
     Steps steps;
     steps.count = 0;
+    steps.emitted = vec3(0.0);
     float limit = min(nextSurface, media.rangeOfAll.y);
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
     while (depth < limit && steps.count < STEPS && work < uint(RESOLVE_WORK_LIMIT)) {
@@ -120,10 +121,13 @@ void main() {
         scattered[v] = extinctionOf(v, media, middle);
         sigmaT += inChannels(v, scattered[v]);
       }
-      if (maxComponent(sigmaT) > 0.0) {
+      vec3 emitted = emission(media, middle);
+      if (maxComponent(sigmaT) > 0.0 || maxComponent(emitted) > 0.0) {
         float stepLength = (to - depth) * ray.metresPerDepth;
         Extinction tau = sigmaT * stepLength;
-        appendStep(steps, middle, to - depth, scattered, throughput * seenLength(tau, stepLength));
+        vec3 seen = throughput * seenLength(tau, stepLength);
+        appendStep(steps, middle, to - depth, scattered, seen);
+        steps.emitted += seen * emitted;
         throughput *= exp(-tau);
         if (maxComponent(throughput) < params.march.y) limit = to;
       } else {

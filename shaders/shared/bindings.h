@@ -20,6 +20,7 @@
 #define STORAGE_RECEIVER_DEPTHS 8   // of each cell of the light lists
 #define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
 #define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
+#define STORAGE_FIRE_RAMPS 8        // vec4[]: radiance per metre
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
 #define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
