@@ -7,7 +7,6 @@
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/aovs_gpu.h"
-#include "pipelines/deep_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
 #include "pipelines/shadow_resolution.h"
@@ -70,7 +69,7 @@ struct ResolveInputs {
   const Quality& quality;
   Tile window;
   bool countLookups;
-  size_t deepBytes;  // most that a deep image takes
+  DeepLimits deepLimits;
 };
 
 template <typename Inputs>
@@ -225,7 +224,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   if (frame.deep)
     recordDeep(device,
                {inputs.window, split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1, walk},
-               inputs.deepBytes, *frame.deep);
+               inputs.deepLimits, *frame.deep);
   else
     walk(rayCount);
   frame.statistics.splitPixels += split.count;
@@ -245,7 +244,7 @@ struct TileInputs {
   int width = 0;
   int height = 0;
   bool countLookups = false;
-  size_t deepBytes = 0;  // most that a deep image takes
+  DeepLimits deepLimits;
 };
 
 // Draws a frame tile by tile.
@@ -322,7 +321,7 @@ class TilePainter {
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepBytes},
+                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepLimits},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -401,17 +400,17 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   const auto seen = scene::visibleParts(scene_, camera, aspect);
   const deepshadow::Maps shadows = buildShadows(camera, width, height, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
-  const size_t deepBytes = std::min(options.deepBytes, mostDeepBytes());
+  const DeepLimits deepLimits = withinMemory(options.deepLimits);
   if (options.deep) {
     frame.deep = image::DeepImage(width, height);
     frame.deep->view = deepView(scene::cameraView(camera, width, height));
   }
   for (const size_t light : options.deepShadows)
-    frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
+    frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
                           width,         height,  options.countLookups,
-                          deepBytes};
+                          deepLimits};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
