@@ -21,6 +21,7 @@
 #include "base/random.h"
 #include "image/metrics.h"
 #include "pipelines/linked_lists_gpu.h"
+#include "scene/camera_view.h"
 #include "scene/gltf.h"
 #include "scene/media.h"
 #include "scene/visible_hull.h"
