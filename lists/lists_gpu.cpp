@@ -393,7 +393,7 @@ size_t Lists::buildLinked(gl::Device& device, size_t nodes, const Draw& draw) {
   const Profiler::Scope time(device.profiler(), "link");
   base::check(strategy_ == Strategy::SpinLock && payloadBytes_ % 8 == 0, "linked lists are read as they are");
   const size_t headBytes = cells_ * 2 * sizeof(uint32_t);
-  if (heads_.bytes() < headBytes) {
+  if (heads_.bytes() == 0) {
     heads_ = gl::Buffer(device, label_, headBytes);
     headsView_ = gl::BufferTexture(device, heads_, gl::BufferFormat::R32UI);
     runs_ = gl::Buffer(device, label_, sizeof(ListRun));

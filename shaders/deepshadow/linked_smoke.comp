@@ -1,8 +1,8 @@
 // The smoke of a face into linked lists, for comparisons: for each texel some nodes, each the optical depth of an equal
 // stretch of the ray through all media, up to the opaque depth. With one node this is the smoke of Lindbeck 2015, 2.2.5.
 #define LIST_PAYLOAD ShadowNode
-#include "shaders/lists/insert.glsl"
 #include "shaders/shared/deepshadow.h"
+#include "shaders/lists/insert.glsl"
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/view.h"
 #include "shaders/volumes/media.glsl"

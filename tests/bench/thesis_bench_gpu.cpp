@@ -19,6 +19,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/random.h"
+#include "image/image_file.h"
 #include "image/metrics.h"
 #include "pipelines/linked_lists_gpu.h"
 #include "scene/camera_view.h"
@@ -60,13 +61,31 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// Cones under the ceiling of what the scene fills, which look down and aside.
-std::vector<lights::Light> coneLights(const scene::Scene& scene, int count, bool shadows) {
-  glm::dvec3 low(1e30), high(-1e30);
-  for (const glm::dvec3& p : scene::visiblePoints(scene, {}, scene.cameras.at(0), double(width) / height)) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
+// What a scene fills, as far as the camera sees it, or, where there are media, what these fill.
+struct Room {
+  glm::dvec3 low{1e30};
+  glm::dvec3 high{-1e30};
+};
+
+Room roomOf(const World& world) {
+  Room room;
+  const auto add = [&](const std::vector<glm::dvec3>& points) {
+    for (const glm::dvec3& p : points) {
+      room.low = glm::min(room.low, p);
+      room.high = glm::max(room.high, p);
+    }
+  };
+  std::vector<glm::dmat4> boxes;
+  for (const volumes::Medium& medium : world.media) boxes.push_back(volumes::worldFromUnit(medium));
+  const scene::Scene none;
+  const scene::Camera& camera = world.scene.cameras.at(0);
+  add(scene::visiblePoints(boxes.empty() ? world.scene : none, boxes, camera, double(width) / height));
+  return room;
+}
+
+// Cones in the upper half of a room, which look down and aside.
+std::vector<lights::Light> coneLights(const Room& room, int count, bool shadows) {
+  const auto& [low, high] = room;
   base::Random random(5);
   std::vector<lights::Light> lights;
   for (int i = 0; i < count; ++i) {
@@ -76,7 +95,7 @@ std::vector<lights::Light> coneLights(const scene::Scene& scene, int count, bool
       return low[axis] + random.uniform(from, to) * (high[axis] - low[axis]);
     };
     light.position = {within(0.15, 0.85, 0), within(0.5, 0.95, 1), within(0.05, 0.95, 2)};
-    const glm::dvec3 target(within(0.2, 0.8, 0), low.y, within(0.1, 0.9, 2));
+    const glm::dvec3 target(within(0.2, 0.8, 0), within(0, 0.4, 1), within(0.2, 0.7, 2));
     light.direction = glm::normalize(target - light.position);
     light.outerCone = random.uniform(0.3, 0.5);
     light.innerCone = 0.7 * light.outerCone;
@@ -126,7 +145,9 @@ Times timesOf(gl::Device& device, double frame) {
 
 class Bench {
  public:
-  Bench(gl::Device& device, int frames) : device_(device), frames_(frames) {}
+  // Pictures of the first way are written beside `plot`, where that is not empty.
+  Bench(gl::Device& device, int frames, std::string plot)
+      : device_(device), frames_(frames), plot_(std::move(plot)) {}
 
   void run(const std::string& test, const std::string& size, const World& world, int shadowResolution,
            const std::vector<Way>& ways) {
@@ -144,6 +165,7 @@ class Bench {
         if (i > 0) times[way].push_back(timesOf(device_, frame.count()));  // the first compiles
       }
     }
+    if (!plot_.empty()) image::writeImage(fmt::format("{}.{}.{}.png", plot_, test, size), images[0], {});
     for (size_t way = 0; way < ways.size(); ++way) {
       const auto of = [&](double Times::*part) {
         std::vector<double> values;
@@ -155,7 +177,7 @@ class Bench {
       rows_.push_back({test, size, ways[way].name, medians});
       print(rows_.back(), rows_[rows_.size() - 1 - way].times);
       if (way > 0)
-        fmt::print("{:60} relative RMSE to the first way's picture {:.4f}\n", "",
+        fmt::print("{:60} relative RMSE to the first way's picture {:.5f}\n", "",
                    image::compare(images[way], images[0]).relativeRmse);
       std::fflush(stdout);
     }
@@ -187,6 +209,7 @@ class Bench {
 
   gl::Device& device_;
   int frames_;
+  std::string plot_;
   std::vector<Row> rows_;
 };
 
@@ -261,19 +284,20 @@ int run(const std::string& path, int frames, const std::string& plotPath, const 
   fmt::print("{}\n", device.names().renderer);
   World hall{.scene = scene::readGltf(path)};
   hall.media = scene::readMedia(hall.scene);
+  const Room room = roomOf(hall);
   if (hall.media.size() > 1) hall.media.erase(hall.media.begin() + 1, hall.media.end());
   World empty{.scene = hall.scene};
-  Bench bench(device, frames);
+  Bench bench(device, frames, plotPath);
   const auto wanted = [&](const char* test) { return only.empty() || only == test; };
   for (int count = 50; wanted("lights") && count <= 250; count += 50) {
-    empty.scene.lights = coneLights(hall.scene, count, false);
+    empty.scene.lights = coneLights(room, count, false);
     bench.run("lights", fmt::format("{} lights", count), empty, 512, {ours, thesis});
   }
   const World floor = spotOnFloor();
   for (int side = 256; wanted("shadows") && side <= 2048; side *= 2)
     bench.run("shadows", fmt::format("{0} x {0}", side), floor, side, {ours, thesis});
   for (int count = 5; wanted("both") && count <= 25; count += 5) {
-    hall.scene.lights = coneLights(hall.scene, count, true);
+    hall.scene.lights = coneLights(room, count, true);
     bench.run("both", fmt::format("{} lights", count), hall, 512, {ours, thesis, finer});
   }
   if (!plotPath.empty()) base::writeFile(plotPath, plot(bench.rows()));
