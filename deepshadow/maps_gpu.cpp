@@ -112,6 +112,49 @@ class Builder {
 
   size_t cutMarches() const { return cutMarches_; }
 
+  // For comparisons: all faces, one after the other, into linked lists. Returns their nodes.
+  size_t link(std::span<const std::vector<FaceProjection>> facesOfLights, lists::Lists& lists) {
+    struct Face {
+      FaceProjection projection;
+      size_t firstTexel;
+      gl::Texture depth;
+    };
+    std::vector<Face> faces;
+    size_t firstTexel = 0;
+    for (const std::vector<FaceProjection>& ofLight : facesOfLights) {
+      for (const FaceProjection& face : ofLight) {
+        drawOpaque(face);
+        faces.push_back({face, firstTexel, std::move(depth_)});
+        depth_ = gl::Texture();
+        firstTexel += texelsOf(face);
+      }
+    }
+    const auto forEachFace = [&](const auto& use) {
+      for (Face& face : faces) {
+        firstCell_ = face.firstTexel;
+        std::swap(depth_, face.depth);
+        use(face.projection);
+        std::swap(depth_, face.depth);
+      }
+      firstCell_ = 0;
+    };
+    const size_t nodes = lists.buildLinked(device_, inputs_.linkedNodes, [&](const lists::Pass& pass) {
+      forEachFace([&](const FaceProjection& face) {
+        if (inputs_.casters.listed) store(face, {pass.defines, {0, texelsOf(face)}});
+        if (!inputs_.volumes.empty()) linkSmoke(face, pass);
+      });
+    });
+    forEachFace([&](const FaceProjection& face) {
+      useFace(face);
+      depth_.bind(TEXTURE_OPAQUE_DEPTH);
+      lists.heads().bindStorage(STORAGE_LIST_HEADS);
+      texels_.bindStorage(STORAGE_SHADOW_TEXELS);
+      gl::dispatchLinear(device_.program({"deepshadow/linked_texels.comp"}), texelsOf(face));
+    });
+    gl::storageBarrier();
+    return nodes;
+  }
+
  private:
   // Cells of a face whose lists are built.
   struct FaceWindow {
@@ -144,7 +187,9 @@ class Builder {
   }
 
   void useFace(const FaceProjection& face) {
-    viewBlock_.writeValue(faceView(face));
+    shared::ViewParams view = faceView(face);
+    view.size.z = static_cast<int>(firstCell_);
+    viewBlock_.writeValue(view);
     viewBlock_.bindUniform(UNIFORM_VIEW);
   }
 
@@ -186,6 +231,22 @@ class Builder {
                       .scissor = rowsOf(pass.window, face.side),
                       .depthClamp = true});
     inputs_.casters.listed();
+  }
+
+  // The smoke of a face into linked lists.
+  void linkSmoke(const FaceProjection& face, const lists::Pass& pass) {
+    useFace(face);
+    shared::ShadowPassParams params{};
+    params.march.x = static_cast<float>(inputs_.stepVoxels);
+    params.units.x = inputs_.linkedSmokeNodes;
+    passBlock_.writeValue(params);
+    passBlock_.bindUniform(UNIFORM_PASS);
+    depth_.bind(TEXTURE_OPAQUE_DEPTH);
+    inputs_.volumes.bind();
+    gl::dispatchLinear(device_.program({"deepshadow/linked_smoke.comp"},
+                                       gl::joined(inputs_.volumes.defines(), pass.defines)),
+                       texelsOf(face));
+    gl::storageBarrier();
   }
 
   // The knots of a window, from firstUnit_ on. Texels that find no room in the pool are written again when it
@@ -285,6 +346,7 @@ class Builder {
   size_t listCells_ = 0;
   size_t firstUnit_ = 0;  // of the window that is built
   size_t cutMarches_ = 0;
+  size_t firstCell_ = 0;  // of the face, among the cells of linked lists
 };
 
 // What a texel's knots usually take, or somewhat more: where the maps fit with that, nobody counts. Smooth
@@ -326,6 +388,10 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
     return std::max(bytes / static_cast<double>(budgetBytes_),
                     static_cast<double>(std::max(texels, units)) / static_cast<double>(readable));
   };
+  if (inputs.linkedSmokeNodes > 0) {
+    buildLinked(device, inputs, arrange(inputs));
+    return;
+  }
   for (bool counting = false;;) {
     const size_t texels = arrange(inputs);
     double excess = excessOf(texels, 0);
@@ -392,19 +458,33 @@ bool Maps::tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, 
   texels_ = gl::Buffer(device, texelsLabel, texelBytes, gl::Buffer::Whole::Never);
   knots_ =
       gl::Buffer(device, poolLabel, std::min(firstUnits, mostUnits) * unitBytes, gl::Buffer::Whole::Never);
-  std::vector<shared::ShadowFace> faces;
   Builder builder(device, inputs, plan_.error, texels_, knots_, mostUnits);
+  for (size_t i = 0; i < lightMaps_.size(); ++i)
+    if (!projections_[i].empty() && !builder.build(projections_[i], lightMaps_[i])) return false;
+  uploadFaces(device);
+  cutMarches_ = builder.cutMarches();
+  return true;
+}
+
+void Maps::uploadFaces(gl::Device& device) {
+  std::vector<shared::ShadowFace> faces;
   for (size_t i = 0; i < lightMaps_.size(); ++i) {
     size_t firstTexel = lightMaps_[i].firstTexel;
     for (const FaceProjection& face : projections_[i]) {
       faces.push_back(faceData(face, firstTexel));
       firstTexel += texelsOf(face);
     }
-    if (!projections_[i].empty() && !builder.build(projections_[i], lightMaps_[i])) return false;
   }
   faces_ = gl::Buffer(device, "shadow faces", std::span<const shared::ShadowFace>(faces));
-  cutMarches_ = builder.cutMarches();
-  return true;
+}
+
+void Maps::buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels) {
+  texels_ = gl::Buffer(device, texelsLabel, texels * sizeof(shared::ShadowTexel), gl::Buffer::Whole::Never);
+  linked_.emplace(device, "linked shadow lists", texels, sizeof(shared::ShadowNode),
+                  lists::ListOptions{.strategy = lists::Strategy::SpinLock});
+  linkedNodes_ = Builder(device, inputs, plan_.error, texels_, knots_, 0).link(projections_, *linked_);
+  uploadFaces(device);
+  texelsView_ = gl::BufferTexture(device, texels_, gl::BufferFormat::RGB32UI);
 }
 
 size_t Maps::bytes() const {
@@ -440,6 +520,11 @@ ReadMap Maps::read(size_t light) const {
 
 void Maps::bind() const {
   faces_.bindStorage(STORAGE_SHADOW_FACES);
+  if (linked_) {
+    linked_->bindLinked(TEXTURE_SHADOW_TEXELS, TEXTURE_SHADOW_KNOTS, TEXTURE_SHADOW_NODES);
+    texelsView_.bind(TEXTURE_SHADOW_TEXELS);
+    return;
+  }
   texelsView_.bind(TEXTURE_SHADOW_TEXELS);
   knotsView_.bind(TEXTURE_SHADOW_KNOTS);
 }

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ struct MapInputs {
   MapBudget budget{};
   double stepVoxels = 1.5;  // of the march through smoke
   lists::ListOptions lists{};
+  // For comparisons: lists stay linked, with so many nodes of smoke for each texel (deepshadow/walk.glsl); 0:
+  // runs of knots. Error bound, budgets and the flags of objects do not hold then.
+  int linkedSmokeNodes = 0;
+  size_t linkedNodes = 0;  // that the pool of linked lists has at first
 };
 
 struct LightMap {
@@ -90,12 +95,15 @@ class Maps {
   size_t cutMarches() const { return cutMarches_; }
   // For shaders that include shaders/deepshadow/lookup.glsl.
   void bind() const;
+  size_t linkedNodes() const { return linkedNodes_; }  // of linked lists
   // A light's map, read back.
   ReadMap read(size_t light) const;
 
  private:
   size_t arrange(const MapInputs& inputs);
   bool tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, size_t units);
+  void buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels);
+  void uploadFaces(gl::Device& device);
 
   MapPlan plan_;
   bool lowered_ = false;
@@ -109,6 +117,8 @@ class Maps {
   gl::BufferTexture texelsView_;
   gl::BufferTexture knotsView_;
   size_t cutMarches_ = 0;
+  std::optional<lists::Lists> linked_;
+  size_t linkedNodes_ = 0;
 };
 
 }  // namespace sfumato::deepshadow

@@ -42,6 +42,7 @@ struct LightListInputs {
   // seen there can be lit; the first is greater where nothing can. None: everything can.
   const gl::Buffer* receivers = nullptr;
   lists::ListOptions lists{};
+  bool linked = false;                  // for comparisons: see Lists::buildLinked
   std::optional<LightListBuild> build;  // none: what was found the faster one for so many lights
 };
 
@@ -87,6 +88,7 @@ class LightLists {
   gl::Buffer lights_;
   gl::Buffer passBlock_;
   lists::Lists lists_;
+  bool linked_ = false;
   lists::ListStatistics statistics_;
 };
 

@@ -378,6 +378,46 @@ Lists::Stored Lists::link(gl::Device& device, const Window& window, const Draw& 
   return Stored::All;
 }
 
+size_t Lists::buildLinked(gl::Device& device, size_t nodes, const Draw& draw) {
+  const Profiler::Scope time(device.profiler(), "link");
+  base::check(strategy_ == Strategy::SpinLock && payloadBytes_ % 8 == 0, "linked lists are read as they are");
+  const size_t headBytes = cells_ * 2 * sizeof(uint32_t);
+  if (heads_.bytes() == 0) {
+    heads_ = gl::Buffer(device, label_, headBytes);
+    headsView_ = gl::BufferTexture(device, heads_, gl::BufferFormat::R32UI);
+    runs_ = gl::Buffer(device, label_, sizeof(ListRun));
+  }
+  for (capacity_ = std::max(nodes, capacity_);;) {
+    if (capacity_ > mostNodes(device)) failOverBudget(device, cells_);
+    if (links_.bytes() < (capacity_ + 1) * sizeof(ListLink)) {
+      links_ = gl::Buffer(device, label_, (capacity_ + 1) * sizeof(ListLink), gl::Buffer::Whole::Never);
+      linksView_ = gl::BufferTexture(device, links_, gl::BufferFormat::RGB32UI);
+      linkedPayloads_ = gl::Buffer(device, label_, (capacity_ + 1) * payloadBytes_, gl::Buffer::Whole::Never);
+      linkedPayloadsView_ = gl::BufferTexture(device, linkedPayloads_, gl::BufferFormat::RG32UI);
+    }
+    counters_.clear();
+    heads_.clear();
+    useWindow({0, cells_});
+    heads_.bindStorage(STORAGE_LIST_HEADS);
+    bindNodes(device, STORAGE_LIST_NODES, links_, sizeof(ListLink));
+    if (payloadBytes_ > 0) bindNodes(device, STORAGE_LIST_PAYLOADS, linkedPayloads_, payloadBytes_);
+    gl::ShaderDefines defines = bankDefines(device);
+    defines.emplace_back("LIST_PASS", std::to_string(static_cast<int>(strategy_)));
+    draw({defines, {0, cells_}});
+    gl::storageBarrier();
+    const auto counters = counters_.readValue<ListCounters>();
+    base::check(counters.overflowed == 0, "no insertion was given up");
+    if (counters.demand <= capacity_) return counters.demand;
+    capacity_ = unmetNodes_ = counters.demand;
+  }
+}
+
+void Lists::bindLinked(unsigned heads, unsigned links, unsigned payloads) const {
+  headsView_.bind(heads);
+  linksView_.bind(links);
+  if (payloadBytes_ > 0) linkedPayloadsView_.bind(payloads);
+}
+
 // Whether the last dispatch left work; the next one starts to count anew.
 bool Lists::unfinished() {
   auto counters = counters_.readValue<ListCounters>();

@@ -68,6 +68,14 @@ class Lists {
                               const std::function<void(const Window&)>& consume,
                               size_t mostCells = std::numeric_limits<size_t>::max());
 
+  // For comparisons: the linked lists of all cells as spin locks sorted them, and no runs. The pool holds
+  // `nodes`; where that is too few, what they are is known after one build, and they are built again. Costs 8
+  // bytes a cell and 12 + payloadBytes a node. Returns the nodes. Throws Memory when the device holds fewer.
+  size_t buildLinked(gl::Device& device, size_t nodes, const Draw& draw);
+  // For shaders, at these texture units: heads (R32UI), links (ListLink, RGB32UI), payloads (pairs of words).
+  void bindLinked(unsigned heads, unsigned links, unsigned payloads) const;
+  const gl::Buffer& heads() const { return heads_; }
+
   // Nodes that `draw` will store in the first `cells`, by a count pass: nothing is stored.
   size_t predict(gl::Device& device, size_t cells, const Draw& draw);
 
@@ -167,6 +175,7 @@ class Lists {
   gl::BufferTexture payloadsView_;
   gl::BufferTexture linksView_;
   gl::BufferTexture linkedPayloadsView_;
+  gl::BufferTexture headsView_;  // of buildLinked alone
 };
 
 // The strategy for a device, which has not been found unsafe there (lists/driver_verdict.h): see

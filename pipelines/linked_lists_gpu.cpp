@@ -187,6 +187,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   gl::ShaderDefines defines =
       resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (inputs.quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
   if (frame.deep) defines.emplace_back("DEEP", "1");
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
@@ -313,7 +314,8 @@ class TilePainter {
                                        inputs_.height,
                                        window.corners(),
                                        receivers ? &*receivers : nullptr,
-                                       remaining(surfaces->statistics.bytes)};
+                                       remaining(surfaces->statistics.bytes),
+                                       inputs_.quality.walkedSmokeNodes > 0};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
@@ -422,6 +424,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
                                  .bytes = shadows.bytes(),
                                  .predictedBytes = shadows.predictedBytes(),
                                  .budgetBytes = shadows.budgetBytes()};
+  if (shadows.linkedNodes() > 0) linkedNodes_ = shadows.linkedNodes();
   frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = geometry_.triangles();
   return frame;
@@ -458,7 +461,9 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                   .lowerResolution = !quality.exactShadowResolution,
                   .loosenError = !quality.exactShadowError},
        .stepVoxels = quality.stepVoxels,
-       .lists = quality.lists});
+       .lists = quality.lists,
+       .linkedSmokeNodes = quality.walkedSmokeNodes,
+       .linkedNodes = linkedNodes_});
 }
 
 }  // namespace sfumato::pipelines

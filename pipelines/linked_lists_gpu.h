@@ -103,6 +103,7 @@ class LinkedListsPipeline {
   std::vector<glm::dmat4> mediaBoxes_;  // world from unit cube
   GeometryGpu geometry_;
   volumes::VolumesGpu volumes_;
+  size_t linkedNodes_ = 0;  // of the last frame, where lists stay linked: how large the next pool is
 };
 
 }  // namespace sfumato::pipelines

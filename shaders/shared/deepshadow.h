@@ -63,3 +63,6 @@ SHARED_END
 #define SHADOW_OWN_STEPS 0x80000000u  // its own steps follow; never of a grey texel
 #define SHADOW_GREY 0x40000000u
 #define SHADOW_KNOTS 0x3fffffffu  // the mask of their count
+
+// Linked lists, for comparisons: ids of smoke's nodes, whose words are the end of a stretch and what it takes, as floats.
+#define SHADOW_SMOKE_IDS 0xffffff00u
