@@ -54,4 +54,5 @@
 #define TEXTURE_LIGHT_CELL_KEYS 16
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_BRICK_MAP 18
-#define TEXTURE_GRIDS 19  // and the units after it
+#define TEXTURE_SMOKE_BLOCKS 19  // RayState of each block of pixels
+#define TEXTURE_GRIDS 20  // and the units after it
