@@ -144,6 +144,7 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   if (!options.shadowMemory.empty())
     quality.shadowMemory = lists::bytesNamed(options.shadowMemory, "--shadow-memory");
   quality.scatteringOctaves = options.scatteringOctaves;
+  if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");

@@ -37,7 +37,9 @@ nlohmann::json toJson(const pipelines::Lookups& lookups) {
     return nlohmann::json{{"mean", static_cast<double>(all) / pixels}, {"max", most}};
   };
   return {{"lights_per_pixel", perPixel(lookups.lights, lookups.mostLights)},
-          {"shadows_per_pixel", perPixel(lookups.shadows, lookups.mostShadows)}};
+          {"shadows_per_pixel", perPixel(lookups.shadows, lookups.mostShadows)},
+          {"smoke_steps", lookups.steps},
+          {"smoke_steps_jumped", lookups.jumpedSteps}};
 }
 
 nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {

@@ -35,6 +35,8 @@ struct Lookups {
   size_t shadows = 0;
   size_t mostLights = 0;  // of one pixel
   size_t mostShadows = 0;
+  size_t steps = 0;        // of marches through smoke that asked for its density, in all pixels
+  size_t jumpedSteps = 0;  // that did not, because nothing is there
 };
 
 struct ShadowFigures {

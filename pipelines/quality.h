@@ -24,8 +24,9 @@ struct Quality {
   // where they would not fit; the same of the error.
   bool exactShadowResolution = true;
   bool exactShadowError = true;
-  size_t shadowMemory = 0;         // bytes of all maps together; 0: what the device reads
-  double throughputCutoff = 1e-3;  // a ray ends where less than this of what is behind would be seen
+  size_t shadowMemory = 0;           // bytes of all maps together; 0: what the device reads
+  bool halfResolutionSmoke = false;  // marched once for 2 x 2 pixels where these see about as far
+  double throughputCutoff = 1e-3;    // a ray ends where less than this of what is behind would be seen
   ShadowFilter surfaceShadows = ShadowFilter::Bilinear;
   ShadowFilter smokeShadows = ShadowFilter::Nearest;
   // Octaves of multiple scattering beside single scattering, 0 to maxScatteringOctaves: see

@@ -56,4 +56,5 @@
 #define TEXTURE_SHADOW_NODES 17  // of linked shadow lists, for comparisons
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_BRICK_MAP 18
-#define TEXTURE_GRIDS 19  // and the units after it
+#define TEXTURE_SMOKE_BLOCKS 19  // RayState of each block of pixels
+#define TEXTURE_GRIDS 20  // and the units after it
