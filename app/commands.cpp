@@ -98,8 +98,28 @@ void addSmoke(CLI::App& command, RenderOptions& options) {
       ->type_name("G")
       ->check(between(-0.99, 0.99));
   add("--volume-memory", options.volumeMemory,
-      "Most that all smoke may take on the device: in bricks where a box is more; else what there is")
+      "Most that all smoke takes; more comes in bricks, else what there is")
       ->type_name("BYTES|256M|2G");
+}
+
+void addFire(CLI::App& command, RenderOptions& options) {
+  CLI::Option* fire =
+      command
+          .add_option("--fire", options.fire, "The grid of its file that glows, e.g. temperature or flame")
+          ->type_name("NAME")
+          ->group("Smoke");
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->needs(fire)->group("Smoke");
+  };
+  add("--fire-kelvin", options.fireKelvin, "Glow as a black body, so hot per unit: 1e-6 to 1e6")
+      ->type_name("KELVIN")
+      ->check(between(1e-6, 1e6));
+  add("--fire-strength", options.fireStrength, "Its radiance, times this: 0 to 1e6, else 1")
+      ->type_name("FACTOR")
+      ->check(between(0.0, 1e6));
+  add("--fire-lights", options.fireLights, "Point lights in it that light the rest: 0 to 64, else 0")
+      ->type_name("COUNT")
+      ->check(wholeBetween(0, 64));
 }
 
 void addView(CLI::App& command, RenderOptions& options) {
@@ -153,11 +173,11 @@ void addQuality(CLI::App& command, RenderOptions& options) {
                 "March smoke once for 2 x 2 pixels that see about as far: faster, less sharp")
       ->group("Quality");
   add("--shadow-res", options.shadowResolution,
-      "Texels a side of every deep shadow map: 32 to 16384, else by --quality and what a light covers")
+      "Texels a side of every deep shadow map: 32 to 16384, else what suits")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
   add("--shadow-error", options.shadowError,
-      "Their compression errs in transmittance at most so: 0 (keep all) to 0.5, else by --quality")
+      "Error bound of their transmittance: 0 to 0.5, else by --quality")
       ->type_name("ERROR")
       ->check(between(0.0, 0.5));
   add("--shadow-filter", options.shadowFilter,
@@ -165,7 +185,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->type_name("NAME")
       ->check(oneOf(pipelines::shadowFilterNames()));
   add("--shadow-memory", options.shadowMemory,
-      "Most that they take together: coarser ones, else 2G or what the device reads")
+      "Most that they may take together, else what the device reads")
       ->type_name("BYTES|64K|256M|2G");
 }
 
@@ -230,7 +250,7 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE.exr")
       ->check(fileName());
   add("--deep-shadow", options.deepShadows,
-      "Write a light's deep shadow map so; LIGHT is its name or number; may be given again")
+      "Write the deep shadow map of a light so: its name or number; may recur")
       ->type_name("LIGHT FILE.exr")
       ->check(fileName())
       ->allow_extra_args(false);
@@ -397,6 +417,7 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   command.add_option("SCENE", options.scene, ".gltf or .glb; its nodes may name smoke (extras \"volume\")")
       ->check(fileName());
   addSmoke(command, options);
+  addFire(command, options);
   addView(command, options);
   addQuality(command, options);
   addScattering(command, options);
@@ -444,6 +465,7 @@ CLI::App& addStress(CLI::App& program, StressOptions& options, Verbosity& verbos
       ->check(range(1, 65536))
       ->group("Scene");
   addSmoke(command, options.shot);
+  addFire(command, options.shot);
   addView(command, options.shot);
   addQuality(command, options.shot);
   addStressOutput(command, options);

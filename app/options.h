@@ -27,6 +27,10 @@ struct RenderOptions {
   glm::dvec3 volumeExtinction{1};
   glm::dvec3 volumeAlbedo{0.9};
   double volumeG = 0;
+  std::string fire;  // its grid that glows
+  std::optional<double> fireKelvin;
+  double fireStrength = 1;
+  int fireLights = 0;
   std::string volumeMemory;  // empty: what the device allows
   std::vector<std::string> outputs;
   int width = 1280;
@@ -41,11 +45,11 @@ struct RenderOptions {
   std::optional<int> shadowResolution;
   bool halfResolutionSmoke = false;
   std::optional<double> shadowError;
-  std::string shadowFilter;  // empty: by quality
-  std::string shadowMemory;  // empty: what the device reads
+  std::string shadowFilter;   // empty: by quality
+  std::string shadowMemory;   // empty: what the device reads
   int scatteringOctaves = 0;  // of multiple scattering
-  std::string lists;         // a strategy; empty: the device's
-  std::string listMemory;    // empty: what the device allows
+  std::string lists;          // a strategy; empty: the device's
+  std::string listMemory;     // empty: what the device allows
   std::string onOverflow = "window";
   bool reference = false;  // drawn by the CPU reference
   int samples = 1;         // a side of the pixel, of the reference

@@ -17,6 +17,7 @@
 #include "base/size_text.h"
 #include "base/version.h"
 #include "image/image_file.h"
+#include "pipelines/list_prediction.h"
 #include "pipelines/reference.h"
 #include "scene/camera_view.h"
 #include "scene/default_set.h"
@@ -39,6 +40,22 @@ double yfovOf(const RenderOptions& options) {
   return glm::radians(options.fovDegrees.value_or(40));
 }
 
+scene::FirePlacement fireOf(const RenderOptions& options) {
+  scene::FirePlacement fire{options.fire, volumes::usualLook(options.fire), options.fireLights};
+  if (options.fireKelvin) fire.look = {.kelvin = options.fireKelvin};
+  fire.look.strength = options.fireStrength;
+  return fire;
+}
+
+// Of a volume, for the metadata.
+std::string fireText(const scene::FirePlacement& fire) {
+  if (fire.gridName.empty()) return "";
+  return fmt::format(
+      ", fire \"{}\", {}, strength {}, lights {}", fire.gridName,
+      fire.look.kelvin ? fmt::format("{} K per unit", *fire.look.kelvin) : std::string("colours"),
+      fire.look.strength, fire.lights);
+}
+
 void addVolumes(const RenderOptions& options, scene::Scene& scene) {
   for (const std::string& file : options.volumes) {
     scene::VolumePlacement volume;
@@ -48,6 +65,7 @@ void addVolumes(const RenderOptions& options, scene::Scene& scene) {
     volume.extinctionColour = options.volumeExtinction;
     volume.albedo = options.volumeAlbedo;
     volume.g = options.volumeG;
+    if (!options.fire.empty()) volume.fire = fireOf(options);
     scene.volumes.push_back(volume);
   }
 }
@@ -177,9 +195,9 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
   for (size_t i = 0; i < shot.media.size(); ++i)
     result.emplace_back(
         fmt::format("sfumato:volume{}", i),
-        fmt::format("{}: grid \"{}\", scale {}, extinction {}, albedo {}, g {}", shot.scene.volumes[i].file,
+        fmt::format("{}: grid \"{}\", scale {}, extinction {}, albedo {}, g {}{}", shot.scene.volumes[i].file,
                     shot.media[i].grid.name, shot.media[i].scale, numbers(shot.media[i].extinctionColour),
-                    numbers(shot.media[i].albedo), shot.media[i].g));
+                    numbers(shot.media[i].albedo), shot.media[i].g, fireText(shot.scene.volumes[i].fire)));
   return result;
 }
 
@@ -217,6 +235,19 @@ std::string wayOfDrawing(const RenderOptions& options, const pipelines::Quality&
                      quality.shadowResolution, quality.shadowError);
 }
 
+// What the lists will hold at most about, as far as their bounds tell.
+void printLists(const RenderOptions& options, const Shot& shot) {
+  const pipelines::ListPrediction lists = pipelines::predictLists(
+      shot.scene, shot.media, shot.camera, options.width, options.height, shot.quality);
+  const auto line = [](const char* name, const pipelines::PredictedLists& predicted) {
+    base::print("lists    {}: about {} nodes in {} lists, {}\n", name, predicted.nodes, predicted.cells,
+                base::sizeText(predicted.bytes));
+  };
+  line("surfaces", lists.surfaces);
+  line("lights", lists.lights);
+  line("shadows", lists.allShadows());
+}
+
 void printPlan(const RenderOptions& options, const Shot& shot) {
   const scene::Scene& scene = shot.scene;
   size_t triangles = 0;
@@ -229,11 +260,15 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
     const volumes::DensityGrid& grid = shot.media[i].grid;
     base::print("volume   {}: grid \"{}\", {} x {} x {} voxels, {}\n", scene.volumes[i].file, grid.name,
                 grid.size.x, grid.size.y, grid.size.z, base::sizeText(grid.bytes()));
+    if (shot.media[i].fire)
+      base::print("fire     grid \"{}\", {}\n", shot.media[i].fire->grid.name,
+                  base::sizeText(shot.media[i].fire->grid.bytes()));
   }
   const scene::Camera* camera = cameraOfScene(options, scene);
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
   base::print("frame    {}x{}, quality {}: step {} voxels, {}\n", options.width, options.height,
               options.quality, shot.quality.stepVoxels, wayOfDrawing(options, shot.quality));
+  if (!options.reference) printLists(options, shot);
   for (const std::string& output : options.outputs) base::print("output   {}\n", output);
   for (const std::string& file : heatMapFiles(options)) base::print("output   {}\n", file);
   for (const std::string& file : deepFiles(options)) base::print("output   {}\n", file);
@@ -300,6 +335,7 @@ Shot makeShot(const RenderOptions& options) {
   if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
   addVolumes(options, shot.scene);
   shot.media = scene::readMedia(shot.scene);
+  scene::addFireLights(shot.scene, shot.media);
   if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
   lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);

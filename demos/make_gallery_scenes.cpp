@@ -59,9 +59,11 @@ void addLamp(Gltf& gltf, const vec3& position, const vec3& colour, float intensi
                 at(position));
 }
 
-void addSmoke(Gltf& gltf, const char* file, float scale, json placement, const vec3& albedo, float g) {
+void addSmoke(Gltf& gltf, const char* file, float scale, json placement, const vec3& albedo, float g,
+              const json& more = json::object()) {
   placement["extras"] = {
       {"volume", file}, {"volume_scale", scale}, {"volume_albedo", toJson(albedo)}, {"volume_g", g}};
+  placement["extras"].update(more);
   gltf.addNode("smoke", placement);
 }
 
@@ -401,6 +403,41 @@ void makeLampInSmoke(const fs::path& folder) {
   gltf.write(folder / "lamp_in_smoke.gltf");
 }
 
+// A fire before a wall: its gas is seen to glow, and eight lights in it light the floor, the stones and its
+// smoke.
+void makeFire(const fs::path& folder) {
+  const volumes::FlameGrids flame = volumes::makeFlame(160, 2.4, 3);
+  const volumes::DensityGrid* grids[] = {&flame.smoke, &flame.temperature};
+  volumes::writeVdb(folder / "fire.vdb", grids);
+  Gltf gltf = newScene();
+  addFloor(gltf);
+  addWall(gltf, 1.6f);
+  const size_t stone = gltf.addMaterial({.name = "stone", .colour = {0.45f, 0.43f, 0.4f}});
+  for (int i = 0; i < 9; ++i) {
+    const float angle = 2 * pi * static_cast<float>(i) / 9;
+    gltf.addShape("stone", ball({0.62f * std::cos(angle), 0.09f, 0.62f * std::sin(angle)}, 0.13f), stone);
+  }
+  addSmoke(gltf, "fire.vdb", 5, at({0, 0.02f, 0}), {0.75f, 0.75f, 0.75f}, 0.3f,
+           {{"volume_fire", "temperature"}, {"volume_fire_strength", 0.35}, {"volume_fire_lights", 8}});
+  addSky(gltf, 0.06f);
+  gltf.addCamera("camera", 0.6f, lookingAt({0.3f, 1.1f, 4.6f}, {0, 1, 0}));
+  gltf.write(folder / "fire.gltf");
+}
+
+// A thick plume before the sun; rendered with --multiscatter.
+void makeMultiscatter(const fs::path& folder) {
+  Gltf gltf = newScene();
+  addFloor(gltf);
+  addWall(gltf, 2.2f, {0.3f, 0.34f, 0.4f});
+  json smoke = at({0, 0, 0});
+  smoke["scale"] = {1.5, 1.1, 1.5};
+  addSmoke(gltf, "plume.vdb", 30, smoke, {0.98f, 0.98f, 0.98f}, 0.4f);
+  addSun(gltf, 4.5f, {-2.4f, 1.9f, 0.35f});
+  addSky(gltf, 0.12f);
+  gltf.addCamera("camera", 0.6f, lookingAt({0.2f, 1.4f, 5}, {0, 1.25f, 0}));
+  gltf.write(folder / "multiscatter.gltf");
+}
+
 // The camera stands in the plume: steps begin at the eye, not at a face of the volume's box.
 void makeCameraInSmoke(const fs::path& folder) {
   Gltf gltf = newScene();
@@ -496,6 +533,8 @@ void makeGallery(const fs::path& folder) {
   makeGrazing(folder);
   makeLampInSmoke(folder);
   makeCameraInSmoke(folder);
+  makeFire(folder);
+  makeMultiscatter(folder);
   makeManyLights(folder, "many_lights.gltf", {0.4f, 2.2f, 4.6f}, {0, 0.1f, 0});
   makeManyLights(folder, "camera_in_many_lights.gltf", {0.5f, 0.75f, 1.7f}, {-0.2f, 0.3f, -1});
   makeFlags(folder);

@@ -14,6 +14,7 @@ for scene in out/gallery/*.gltf; do
   if [[ $scene == *many_lights.gltf ]]; then quality+=(--shadow-res 512); fi # of 40 lamps, each with a cube of maps
   if [[ $scene == */many_lights.gltf ]]; then quality+=(--aov lights); fi
   if [[ $scene == */smoke.gltf ]]; then quality+=(--aov shadow-nodes); fi
+  if [[ $scene == */multiscatter.gltf ]]; then quality+=(--multiscatter); fi
   echo "== $picture"
   build/release/app/sfumato render "$scene" --res 640x360 "${quality[@]}" -o "$picture" "$@"
 done

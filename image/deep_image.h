@@ -17,6 +17,7 @@ struct DeepSample {
   std::array<float, 3> colour{};  // R, G, B: radiance that it adds, not yet dimmed by the alphas before it
   float alpha = 0;                // of the light behind, what it takes: in [0, 1], of R, G and B together
   std::array<float, 3> takes{};   // the same of each; all are `alpha` where nothing is coloured
+  bool operator==(const DeepSample&) const = default;
 };
 
 // Row-major, for points as rows (p * M), as OpenEXR has them.

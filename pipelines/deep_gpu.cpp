@@ -16,7 +16,6 @@
 namespace sfumato::pipelines {
 namespace {
 
-constexpr size_t poolBytes = size_t{64} << 20;
 constexpr size_t firstBatch = size_t{1} << 14;  // pixels
 
 [[noreturn]] void failOverMemory(size_t bytes, size_t mostBytes) {
@@ -27,7 +26,13 @@ constexpr size_t firstBatch = size_t{1} << 14;  // pixels
 }
 
 size_t bytesOf(const std::vector<image::DeepSample>& samples) {
-  return sizeof(samples) + samples.capacity() * sizeof(image::DeepSample);
+  return samples.capacity() * sizeof(image::DeepSample);
+}
+
+size_t bytesOf(const image::DeepImage& image) {
+  size_t bytes = image.pixels.size() * sizeof(image.pixels[0]);
+  for (const auto& samples : image.pixels) bytes += bytesOf(samples);
+  return bytes;
 }
 
 // Pixels first to first + count - 1 of a window, and the rays through them, pixel by pixel.
@@ -66,12 +71,13 @@ std::vector<RayEvents> sortedByRay(std::span<const shared::DeepEvent> events, si
 
 class Recorder {
  public:
-  Recorder(gl::Device& device, const DeepRays& rays, size_t mostBytes, image::DeepImage& image)
+  Recorder(gl::Device& device, const DeepRays& rays, const DeepLimits& limits, image::DeepImage& image)
       : device_(device),
         rays_(rays),
-        mostBytes_(mostBytes),
+        mostBytes_(limits.sampleBytes),
         image_(image),
-        events_(device, "deep events", std::min(poolBytes, mostEvents() * sizeof(shared::DeepEvent))) {}
+        events_(device, "deep events", std::min(limits.eventBytes, mostEvents() * sizeof(shared::DeepEvent))),
+        bytes_(bytesOf(image)) {}
 
   void record() {
     const size_t pixels = rays_.groups.size();
@@ -141,7 +147,7 @@ class Recorder {
   const size_t mostBytes_;
   image::DeepImage& image_;
   gl::Buffer events_;
-  size_t bytes_ = 0;
+  size_t bytes_;  // of the image
 };
 
 image::Matrix asRows(const glm::dmat4& m) {
@@ -171,15 +177,22 @@ image::DeepView deepView(const glm::dmat4& viewFromWorld, const glm::dvec2& half
 
 }  // namespace
 
-void recordDeep(gl::Device& device, const DeepRays& rays, size_t mostBytes, image::DeepImage& image) {
-  Recorder(device, rays, mostBytes, image).record();
+DeepLimits withinMemory(DeepLimits limits) {
+  const uint64_t there = base::freeMemory().value_or(UINT64_MAX) / 2;
+  limits.sampleBytes = static_cast<size_t>(std::min<uint64_t>(limits.sampleBytes, there));
+  return limits;
+}
+
+void recordDeep(gl::Device& device, const DeepRays& rays, const DeepLimits& limits, image::DeepImage& image) {
+  Recorder(device, rays, limits, image).record();
 }
 
 image::DeepView deepView(const shared::ViewParams& view) {
   return deepView(view.viewFromWorld, glm::dvec2(view.halfExtent), view.halfExtent.z != 0.f);
 }
 
-std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t light, size_t mostBytes) {
+std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t light,
+                                         const DeepLimits& limits) {
   const deepshadow::LightMap& map = maps.lights()[light];
   if (map.firstFace < 0)
     base::fail(
@@ -189,7 +202,7 @@ std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t li
   constexpr size_t knotsInUnit = 2;  // at most
   const size_t atMost = (knotsInUnit * map.units + map.texels) * sizeof(image::DeepSample) +
                         map.texels * sizeof(std::vector<int>);
-  if (atMost > mostBytes) failOverMemory(atMost, mostBytes);
+  if (atMost > limits.sampleBytes) failOverMemory(atMost, limits.sampleBytes);
   const deepshadow::ReadMap read = maps.read(light);
 
   constexpr std::array sides = {"+x", "-x", "+y", "-y", "+z", "-z"};
@@ -211,10 +224,6 @@ std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t li
     firstTexel += static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
   }
   return images;
-}
-
-size_t mostDeepBytes() {
-  return static_cast<size_t>(base::freeMemory().value_or(UINT64_MAX) / 2);
 }
 
 }  // namespace sfumato::pipelines

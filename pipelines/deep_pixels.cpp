@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 
 namespace sfumato::pipelines {
 namespace {
@@ -78,23 +79,36 @@ struct Node {
   bool hasSurface() const { return before != after; }
 };
 
-// Depths at which some ray's medium begins or ends, and some inside steps that are optically thick.
+// Into how many parts a step is cut, so that its samples may end there: those that are optically thick, and
+// those that take far more of one colour than of another, which one exponential for all colours is not like.
+int partsOf(const shared::DeepEvent& step, const dvec3& before) {
+  const dvec3 after(step.throughputR, step.throughputG, step.throughputB);
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (int c = 0; c < 3; ++c) {
+    if (!(before[c] > 0)) continue;
+    const double tau = std::log(before[c] / std::max(after[c], 1e-12 * before[c]));
+    least = std::min(least, tau);
+    most = std::max(most, tau);
+  }
+  return static_cast<int>(std::clamp(std::ceil(std::max(2 * most, 12 * (most - least))), 1.0, 32.0));
+}
+
+// Depths at which some ray's medium begins or ends, and some inside its steps.
 std::vector<float> depthsOf(std::span<const RayEvents> rays) {
   std::vector<float> depths;
   for (const RayEvents& events : rays) {
-    double before = 1;
+    dvec3 throughput(1);
     for (const shared::DeepEvent& event : events) {
       depths.push_back(event.front);
       if (event.back > event.front) {
-        const double least = std::min({event.throughputR, event.throughputG, event.throughputB});
-        const double tau = before > 0 && least > 0 ? std::log(before / least) : 16;
-        const int parts = static_cast<int>(std::clamp(std::ceil(2 * tau), 1.0, 16.0));
+        const int parts = partsOf(event, throughput);
         for (int i = 1; i < parts; ++i)
-          depths.push_back(event.front +
-                           (event.back - event.front) * static_cast<float>(i) / static_cast<float>(parts));
+          depths.push_back(
+              std::lerp(event.front, event.back, static_cast<float>(i) / static_cast<float>(parts)));
         depths.push_back(event.back);
       }
-      before = std::max({event.throughputR, event.throughputG, event.throughputB});
+      throughput = {event.throughputR, event.throughputG, event.throughputB};
     }
   }
   std::ranges::sort(depths);
@@ -144,13 +158,16 @@ std::vector<Node> nodesOf(std::span<const shared::ShadowKnot> knots, double opaq
   return nodes;
 }
 
+// Of the error that is allowed, what is used at nodes, as between them it is larger by up to a tenth.
+constexpr double errorAtNodes = 0.75;
+
 // Makes samples of nodes.
 class Sampler {
  public:
-  Sampler(std::span<const Node> nodes, double error) : nodes_(nodes), error_(error) {
+  Sampler(std::span<const Node> nodes, double error) : nodes_(nodes), error_(errorAtNodes * error) {
     if (nodes.empty()) return;
     const dvec3& all = nodes.back().after.radiance;
-    radianceError_ = error * std::max({all.x, all.y, all.z});
+    radianceError_ = error_ * std::max({all.x, all.y, all.z});
     grey_ = std::ranges::all_of(nodes, [](const Node& node) {
       const dvec3& t = node.after.throughput;
       return t.x == t.y && t.x == t.z;
@@ -201,10 +218,11 @@ class Sampler {
     const double length = nodes_[last].depth - nodes_[first].depth;
     const double start = meanOf(from.throughput);
     const double ratio = meanOf(to.throughput) / start;
+    const double logRatio = std::log(ratio);
     for (size_t i = first + 1; i < last; ++i) {
       const State& exact = nodes_[i].before;
       const double fraction = (nodes_[i].depth - nodes_[first].depth) / length;
-      const double partRatio = std::pow(ratio, fraction);
+      const double partRatio = std::exp(fraction * logRatio);
       const double added = partAdded(fraction, ratio, partRatio);
       if (std::abs(start * partRatio - meanOf(exact.throughput)) > error_) return false;
       const dvec3 off = from.radiance + added * (to.radiance - from.radiance) - exact.radiance;

@@ -19,7 +19,7 @@ using RayEvents = std::vector<shared::DeepEvent>;
 
 // The mean of a pixel's rays, of which there is at least one: at each depth the radiance that is added before
 // it and the light from behind that passes. A surface is a sample, and so are as many steps of smoke between
-// two surfaces as keep both within `error` (see deepError) at the steps' ends; at the samples' ends, and so
+// two surfaces as keep both within `error` (see deepError); at the samples' ends, and so
 // flattened, both are exact.
 std::vector<image::DeepSample> joinRays(std::span<const RayEvents> rays, double error = deepError);
 

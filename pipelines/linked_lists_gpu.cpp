@@ -7,7 +7,6 @@
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/aovs_gpu.h"
-#include "pipelines/deep_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
 #include "pipelines/shadow_resolution.h"
@@ -39,6 +38,7 @@ gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const Geome
   if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (volumes.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
+  if (volumes.burning()) defines.emplace_back("FIRE", "1");
   if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
   return gl::joined(defines, volumes.defines());
 }
@@ -69,7 +69,7 @@ struct ResolveInputs {
   const Quality& quality;
   Tile window;
   bool countLookups;
-  size_t deepBytes;  // most that a deep image takes
+  DeepLimits deepLimits;
 };
 
 template <typename Inputs>
@@ -226,6 +226,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
     defines.emplace_back("SMOKE_BLOCKS", "1");
   }
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (inputs.quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
   if (frame.deep) defines.emplace_back("DEEP", "1");
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
@@ -264,7 +265,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   if (frame.deep)
     recordDeep(device,
                {inputs.window, split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1, walk},
-               inputs.deepBytes, *frame.deep);
+               inputs.deepLimits, *frame.deep);
   else
     walk(rayCount);
   frame.statistics.splitPixels += split.count;
@@ -284,7 +285,7 @@ struct TileInputs {
   int width = 0;
   int height = 0;
   bool countLookups = false;
-  size_t deepBytes = 0;  // most that a deep image takes
+  DeepLimits deepLimits;
 };
 
 // Draws a frame tile by tile.
@@ -353,7 +354,8 @@ class TilePainter {
                                        inputs_.height,
                                        window.corners(),
                                        receivers ? &*receivers : nullptr,
-                                       remaining(surfaces->statistics.bytes)};
+                                       remaining(surfaces->statistics.bytes),
+                                       inputs_.quality.walkedSmokeNodes > 0};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
@@ -361,7 +363,7 @@ class TilePainter {
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepBytes},
+                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepLimits},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -440,17 +442,17 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   const auto seen = scene::visibleParts(scene_, camera, aspect);
   const deepshadow::Maps shadows = buildShadows(camera, width, height, seen, quality);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
-  const size_t deepBytes = std::min(options.deepBytes, mostDeepBytes());
+  const DeepLimits deepLimits = withinMemory(options.deepLimits);
   if (options.deep) {
     frame.deep = image::DeepImage(width, height);
     frame.deep->view = deepView(scene::cameraView(camera, width, height));
   }
   for (const size_t light : options.deepShadows)
-    frame.deepShadows.push_back(deepShadow(shadows, light, deepBytes));
+    frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
   const TileInputs inputs{scene_.lights, shadows, volumes_,
                           geometry_,     quality, tightView(camera, width, height, seen),
                           width,         height,  options.countLookups,
-                          deepBytes};
+                          deepLimits};
   TilePainter painter(device_, inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
@@ -462,6 +464,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
                                  .bytes = shadows.bytes(),
                                  .predictedBytes = shadows.predictedBytes(),
                                  .budgetBytes = shadows.budgetBytes()};
+  if (shadows.linkedNodes() > 0) linkedNodes_ = shadows.linkedNodes();
   frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = geometry_.triangles();
   return frame;
@@ -498,7 +501,9 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                   .lowerResolution = !quality.exactShadowResolution,
                   .loosenError = !quality.exactShadowError},
        .stepVoxels = quality.stepVoxels,
-       .lists = quality.lists});
+       .lists = quality.lists,
+       .linkedSmokeNodes = quality.walkedSmokeNodes,
+       .linkedNodes = linkedNodes_});
 }
 
 }  // namespace sfumato::pipelines

@@ -17,6 +17,7 @@
 #include "lights/light_lists_gpu.h"
 #include "lists/lists_gpu.h"
 #include "pipelines/aovs.h"
+#include "pipelines/deep_gpu.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/quality.h"
 #include "pipelines/tiles.h"
@@ -63,8 +64,7 @@ struct FrameOptions {
   AovSet aovs;                      // those that are not asked for cost nothing
   bool deep = false;                // the deep image as well; nor does this cost anything else
   std::vector<size_t> deepShadows;  // lights that cast shadows, whose maps are wanted as deep images
-  size_t deepBytes =
-      std::numeric_limits<size_t>::max();  // most that one of these takes, beside half of what is free
+  DeepLimits deepLimits;
   // Most pixels of a tile, and of a window: the part of a tile that gets lists and rays at a time. Windows
   // are halved where the device has no room. Only tests ask for less.
   size_t tilePixels = pipelines::tilePixels;
@@ -105,6 +105,7 @@ class LinkedListsPipeline {
   std::vector<glm::dmat4> mediaBoxes_;  // world from unit cube
   GeometryGpu geometry_;
   volumes::VolumesGpu volumes_;
+  size_t linkedNodes_ = 0;  // of the last frame, where lists stay linked: how large the next pool is
 };
 
 }  // namespace sfumato::pipelines

@@ -32,6 +32,10 @@ struct Quality {
   // Octaves of multiple scattering beside single scattering, 0 to maxScatteringOctaves: see
   // shaders/pipelines/multiple_scattering.glsl. No named quality has any.
   int scatteringOctaves = 0;
+  // For comparisons only, no named quality has it: light and shadow lists as Lindbeck 2015 has them, linked
+  // under spin locks and walked from their heads by every lookup, with so many nodes of smoke for each texel.
+  // 0: runs.
+  int walkedSmokeNodes = 0;
   // How all lists are built. The budget is for those that are there at one time: of a window of a light's
   // shadow map, or of the lights and surfaces of a window of the image.
   lists::ListOptions lists{};

@@ -265,40 +265,62 @@ class Tracer {
     return glm::distance(pWorld, centre) + glm::distance(bounds_.low, bounds_.high);
   }
 
-  // Single scattering between tMin and tMax, and what the media there let through. The ray is cut where it
-  // enters or leaves a medium's box, so that steps never straddle a border.
+  // What the media scatter and the fires emit between tMin and tMax, and what the media there let through.
+  // The ray is cut where it enters or leaves a medium's box, so that steps never straddle a border.
   void march(const Ray& ray, double tMin, double tMax, glm::dvec3& radiance,
              glm::dvec3& transmittance) const {
-    struct Stay {
-      const Medium* medium;
-      double enter;
-      double leave;
-    };
     std::vector<Stay> stays;
     std::vector<double> cuts;
+    const auto addStay = [&](Stay stay) {
+      if (stay.enter == stay.leave) return;
+      stays.push_back(stay);
+      cuts.insert(cuts.end(), {stay.enter, stay.leave});
+    };
     for (const Medium& medium : media_) {
-      double enter = tMin;
-      double leave = tMax;
-      if (!volumes::clipToMedium(medium, ray.origin, ray.direction, enter, leave) || enter == leave) continue;
-      stays.push_back({&medium, enter, leave});
-      cuts.insert(cuts.end(), {enter, leave});
+      Stay stay{&medium, nullptr, tMin, tMax};
+      if (volumes::clipToMedium(medium, ray.origin, ray.direction, stay.enter, stay.leave)) addStay(stay);
+      if (!medium.fire) continue;
+      stay = {nullptr, &*medium.fire, tMin, tMax};
+      if (volumes::clipToFire(*medium.fire, ray.origin, ray.direction, stay.enter, stay.leave)) addStay(stay);
     }
     std::ranges::sort(cuts);
-    std::vector<const Medium*> inside;
     for (size_t i = 1; i < cuts.size(); ++i) {
-      inside.clear();
+      Inside inside;
       for (const Stay& stay : stays)
-        if (stay.enter <= cuts[i - 1] && cuts[i] <= stay.leave) inside.push_back(stay.medium);
+        if (stay.enter <= cuts[i - 1] && cuts[i] <= stay.leave) {
+          if (stay.medium) inside.media.push_back(stay.medium);
+          if (stay.fire) inside.fires.push_back(stay.fire);
+        }
       if (!inside.empty() && cuts[i] > cuts[i - 1])
         marchInside(inside, ray, cuts[i - 1], cuts[i], radiance, transmittance);
     }
   }
 
-  void marchInside(std::span<const Medium* const> media, const Ray& ray, double tMin, double tMax,
-                   glm::dvec3& radiance, glm::dvec3& transmittance) const {
-    double voxel = scene::infinity;
-    for (const Medium* medium : media) voxel = std::min(voxel, volumes::voxelSize(medium->worldFromIndex));
-    const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * voxel));
+  // Where a ray is in the box of a medium, or of a fire.
+  struct Stay {
+    const Medium* medium;
+    const volumes::Fire* fire;
+    double enter;
+    double leave;
+  };
+
+  struct Inside {
+    std::vector<const Medium*> media;
+    std::vector<const volumes::Fire*> fires;
+
+    bool empty() const { return media.empty() && fires.empty(); }
+    double voxel() const {
+      double least = scene::infinity;
+      for (const Medium* medium : media) least = std::min(least, volumes::voxelSize(medium->worldFromIndex));
+      for (const volumes::Fire* fire : fires)
+        least = std::min(least, volumes::voxelSize(fire->worldFromIndex));
+      return least;
+    }
+  };
+
+  void marchInside(const Inside& inside, const Ray& ray, double tMin, double tMax, glm::dvec3& radiance,
+                   glm::dvec3& transmittance) const {
+    const double steps = std::ceil((tMax - tMin) / (options_.stepVoxels * inside.voxel()));
     const double longest = (tMax - tMin) / steps;
     const double shortest = longest / 256;
     std::vector<glm::dvec3> extinctions;  // of each medium
@@ -311,13 +333,14 @@ class Tracer {
       t += length;
       extinctions.clear();
       glm::dvec3 extinction(0);
-      for (const Medium* medium : media) {
+      for (const Medium* medium : inside.media) {
         extinctions.push_back(volumes::extinctionAt(*medium, p));
         extinction += extinctions.back();
       }
-      if (extinction == glm::dvec3(0)) continue;
-      radiance +=
-          transmittance * seenLength(extinction, length) * scattered(media, extinctions, p, ray.direction);
+      glm::dvec3 source(0);
+      for (const volumes::Fire* fire : inside.fires) source += volumes::emissionAt(*fire, p);
+      if (extinction != glm::dvec3(0)) source += scattered(inside.media, extinctions, p, ray.direction);
+      radiance += transmittance * seenLength(extinction, length) * source;
       transmittance *= glm::exp(-extinction * length);
     }
   }

@@ -1358,6 +1358,51 @@ Light readLight(const Faults& faults, const tinygltf::Light& from, const NodeGra
   return light;
 }
 
+// Colours one after the other.
+std::vector<glm::dvec3> colourRamp(const Faults& faults, const Value& extras, const char* key,
+                                   const std::string& where) {
+  const Value& list = extras.Get(key);
+  const size_t count = list.ArrayLen();
+  if (count < 2 || count > 256)
+    faults.fail("{}: {} is not an array of 2 to 256 colours: give that many", where, key);
+  std::vector<glm::dvec3> ramp;
+  for (size_t i = 0; i < count; ++i) {
+    const Value& colour = list.Get(static_cast<int>(i));
+    for (int c = 0; c < 3; ++c) {
+      if (colour.ArrayLen() != 3 || !colour.Get(c).IsNumber())
+        faults.fail("{}: {} has a colour that is not three numbers: give red, green and blue", where, key);
+      if (c == 0) ramp.emplace_back(0);
+      ramp.back()[c] = faults.inRange(colour.Get(c).GetNumberAsDouble(), 0, 1e6, where, key);
+    }
+  }
+  return ramp;
+}
+
+// Extras "volume_fire" and its companions.
+FirePlacement readFire(const Faults& faults, const Value& extras, const std::string& where) {
+  FirePlacement fire;
+  fire.gridName = text(faults, extras, "volume_fire", where);
+  if (fire.gridName.empty()) {
+    for (const std::string& key : extras.Keys())
+      if (key.starts_with("volume_fire"))
+        faults.fail("{}: {} without a grid that glows: name one as volume_fire", where, printable(key));
+    return fire;
+  }
+  fire.look = volumes::usualLook(fire.gridName);
+  const bool hasRamp = extras.Has("volume_fire_ramp");
+  if (hasRamp && extras.Has("volume_fire_kelvin"))
+    faults.fail("{}: volume_fire_ramp and volume_fire_kelvin: give one of them", where);
+  if (hasRamp) fire.look = {.ramp = colourRamp(faults, extras, "volume_fire_ramp", where)};
+  if (extras.Has("volume_fire_kelvin"))
+    fire.look = {.kelvin = faults.inRange(number(faults, extras, "volume_fire_kelvin", 1, where), 1e-6, 1e6,
+                                          where, "volume_fire_kelvin")};
+  fire.look.strength = faults.inRange(number(faults, extras, "volume_fire_strength", 1, where), 0, 1e6, where,
+                                      "volume_fire_strength");
+  fire.lights = static_cast<int>(faults.inRange(index(faults, extras, "volume_fire_lights", 0, where), 0, 64,
+                                                where, "volume_fire_lights"));
+  return fire;
+}
+
 // Extras "volume" and its companions.
 VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm::dmat4& worldFromNode,
                            const fs::path& folder, const std::string& where) {
@@ -1374,6 +1419,7 @@ VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm:
   for (int c = 0; c < 3; ++c) faults.inRange(volume.albedo[c], 0, 1, where, "volume_albedo");
   volume.g = number(faults, extras, "volume_g", volume.g, where);
   if (!(std::abs(volume.g) < 1)) faults.fail("{}: volume_g is {}: give a value in (-1, 1)", where, volume.g);
+  volume.fire = readFire(faults, extras, where);
   const double volumeScale = std::abs(glm::determinant(glm::dmat3(worldFromNode)));
   if (!(volumeScale > 0) || !std::isfinite(volumeScale))
     faults.fail("{}: its volume has no extent: give it a scale other than 0", where);

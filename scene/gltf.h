@@ -16,10 +16,12 @@ namespace sfumato::scene {
 // metallic-roughness materials with KHR_materials_transmission, _specular, _ior (folded into the specular
 // colour), _emissive_strength and _unlit; KHR_texture_transform; KHR_mesh_quantization; PNG and JPEG
 // pictures; and volumes: a node with extras "volume" (path relative to the file), "volume_grid",
-// "volume_scale", "volume_extinction" (three numbers: its colour), "volume_albedo" (likewise), "volume_g";
-// materials with extras "shadow_self", "shadow_once" (booleans) and "shadow_rim" (a number, 0 or more): see
-// Material. A warning, once each: points and lines, and extensions that are used but not required and not
-// supported. These are left out.
+// "volume_scale", "volume_extinction" (three numbers: its colour), "volume_albedo" (likewise), "volume_g",
+// "volume_fire" (a grid that glows), "volume_fire_kelvin", "volume_fire_ramp" (colours),
+// "volume_fire_strength", "volume_fire_lights" (an integer): see VolumePlacement; materials with extras
+// "shadow_self", "shadow_once" (booleans) and "shadow_rim" (a number, 0 or more): see Material. A warning,
+// once each: points and lines, and extensions that are used but not required and not supported. These are
+// left out.
 //
 // `seconds`: the pose that all animations of the file have at that time, held before their first key and
 // after their last; of two that target the same property, the later one in the file counts. Without it the

@@ -11,6 +11,7 @@
 
 #include "lights/light.h"
 #include "scene/sampling.h"
+#include "volumes/fire.h"
 
 namespace sfumato::scene {
 
@@ -104,14 +105,22 @@ struct Instance {
   glm::dmat4 worldFromObject{1.0};
 };
 
+// What glows in a volume: another grid of its file.
+struct FirePlacement {
+  std::string gridName;  // empty: nothing
+  volumes::FireLook look;
+  int lights = 0;  // how many point lights stand for its light: see scene/fire_lights.h
+};
+
 // Where a volume stands and what it is made of; the grid itself is read by the volumes room.
 struct VolumePlacement {
-  std::string file;                    // path, already relative to the working directory
-  std::string gridName;                // empty: the file's only float grid, or "density"
-  double scale = 1;                    // sigma_t per unit of density, 1/m, >= 0
-  glm::dvec3 extinctionColour{1};      // what sigma_t is multiplied by per channel, each >= 0
-  glm::dvec3 albedo{0.9};              // each in [0, 1]
-  double g = 0;                        // Henyey-Greenstein, in (-1, 1)
+  std::string file;                // path, already relative to the working directory
+  std::string gridName;            // empty: the file's only float grid, or "density"
+  double scale = 1;                // sigma_t per unit of density, 1/m, >= 0
+  glm::dvec3 extinctionColour{1};  // what sigma_t is multiplied by per channel, each >= 0
+  glm::dvec3 albedo{0.9};          // each in [0, 1]
+  double g = 0;                    // Henyey-Greenstein, in (-1, 1)
+  FirePlacement fire;
   glm::dmat4 worldFromGridWorld{1.0};  // the node's transform; the grid's own transform stands to its right
 };
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,6 +79,14 @@ void forEachRow(const DensityGrid& grid, const Visit& visit) {
                  grid.bricks.values.data() + (*brick - 1) * DensityGrid::valuesInBrick);
 }
 
+// What glows by itself, whether or not it takes light: each value of the grid emits a radiance per metre.
+struct Fire {
+  DensityGrid grid;                // of temperatures or flames
+  glm::dmat4 worldFromIndex{1.0};  // placement times the grid's own transform
+  double top = 1;                  // value at the ramp's end, and where that holds from
+  std::vector<glm::vec3> ramp;  // two entries or more at equal steps of the value from 0 on, linear between
+};
+
 // sigma_t = density * scale * extinctionColour [1/m] per channel, scattering albedo per channel,
 // Henyey-Greenstein g.
 struct Medium {
@@ -87,6 +96,7 @@ struct Medium {
   glm::dvec3 extinctionColour{1};  // each >= 0
   glm::dvec3 albedo{0.9};
   double g = 0;
+  std::optional<Fire> fire;
 };
 
 // The medium's box, from its first voxel to its last, as the image of the unit cube.

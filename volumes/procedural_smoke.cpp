@@ -163,30 +163,106 @@ class Plume {
   std::vector<Puff> puffs_;
 };
 
-}  // namespace
+// In units of its height.
+class Flame {
+ public:
+  static constexpr float halfWidth = 0.34f;
+  static constexpr float hottest = 2000.f;  // K
 
-DensityGrid makePlume(int voxelsHigh, double height, uint64_t seed) {
-  base::check(voxelsHigh >= 8 && voxelsHigh <= 512, "a plume is 8 to 512 voxels high");
-  base::check(height >= 1 && height <= 20, "a plume is 1 to 20 m high");
+  explicit Flame(uint64_t seed) { noiseSeed_ = base::Random(seed).next(); }
+
+  struct Gas {
+    float density;
+    float kelvin;
+  };
+
+  Gas at(vec3 p) const {
+    const float rise = p.y;
+    const float inBox = fadeOut(glm::length(vec3(p.x, 0, p.z)), halfWidth) * fadeOut(rise, 1.f) *
+                        glm::smoothstep(0.f, 0.02f, rise);
+    if (inBox == 0) return {0, 0};
+    const vec3 q = carriedBack(p, rise);
+    const float away = glm::length(vec3(q.x, 0, q.z));
+    // Wide a little above its foot, and pointed.
+    const float wide = 0.19f * (0.5f + 0.5f * glm::smoothstep(0.f, 0.22f, rise)) *
+                       std::pow(std::max(1.f - rise / 0.9f, 0.f), 0.7f);
+    const float tongues = 0.5f * noise(q * vec3(9, 3.5f, 9), noiseSeed_ + 20).value +
+                          0.3f * noise(q * vec3(19, 8, 19), noiseSeed_ + 21).value;
+    const float body = wide > 0 ? 1.f - away / wide + tongues : -1.f;
+    const float heat = glm::smoothstep(0.f, 0.7f, body) * (1.f - 0.3f * rise);
+    const float column = 1.f - away / (0.1f + 0.16f * rise) + 0.8f * tongues;
+    const float smoke =
+        glm::smoothstep(0.f, 0.7f, column) * glm::smoothstep(0.25f, 0.75f, rise) * (1.f - heat) +
+        0.12f * heat;
+    return {inBox * smoke, inBox * hottest * std::pow(heat, 0.45f)};
+  }
+
+ private:
+  static float fadeOut(float x, float end) { return 1.f - glm::smoothstep(0.8f * end, end, x); }
+
+  // Where the gas that is at p came from: it rises, and swirls the more the higher.
+  vec3 carriedBack(vec3 p, float rise) const {
+    const vec3 stretched(1, 0.55f, 1);
+    for (int i = 0; i < 3; ++i)
+      p -= glm::smoothstep(0.f, 0.5f, rise) * (0.02f * curlNoise(p * stretched * 4.3f, noiseSeed_) +
+                                               0.006f * curlNoise(p * stretched * 11.f, noiseSeed_ + 3));
+    return p;
+  }
+
+  uint32_t noiseSeed_ = 0;
+};
+
+// An empty grid that reaches from the ground to `height` and `halfWidth` to all sides, with its margin.
+DensityGrid standingGrid(const char* name, int voxelsHigh, double height, double halfWidth) {
   const double voxel = height / voxelsHigh;
   const int reach = static_cast<int>(std::ceil(halfWidth / voxel)) + 1;
   DensityGrid grid;
-  grid.name = "density";
+  grid.name = name;
   grid.origin = {-reach, -1, -reach};
   grid.size = {2 * reach + 1, voxelsHigh + 2, 2 * reach + 1};
   grid.values.assign(grid.valueIndex(0, 0, grid.size.z), 0.f);
   for (int axis = 0; axis < 3; ++axis) grid.worldFromIndex[axis][axis] = voxel;
+  return grid;
+}
 
-  const Plume plume(static_cast<float>(height), seed);
+// Calls fill(value's index, position in metres) for all but the margin.
+template <typename Fill>
+void fillInside(const DensityGrid& grid, const Fill& fill) {
+  const auto voxel = static_cast<float>(grid.worldFromIndex[0][0]);
   base::parallelFor(grid.size.z - 2, [&](long slice) {
     const int z = static_cast<int>(slice) + 1;
     for (int y = 1; y < grid.size.y - 1; ++y)
-      for (int x = 1; x < grid.size.x - 1; ++x) {
-        const vec3 p = static_cast<float>(voxel) * vec3(grid.origin + ivec3(x, y, z));
-        grid.values[grid.valueIndex(x, y, z)] = plume.density(p);
-      }
+      for (int x = 1; x < grid.size.x - 1; ++x)
+        fill(grid.valueIndex(x, y, z), voxel * vec3(grid.origin + ivec3(x, y, z)));
   });
+}
+
+void checkSize(int voxelsHigh, double height) {
+  base::check(voxelsHigh >= 8 && voxelsHigh <= 512, "a plume or fire is 8 to 512 voxels high");
+  base::check(height >= 1 && height <= 20, "a plume or fire is 1 to 20 m high");
+}
+
+}  // namespace
+
+DensityGrid makePlume(int voxelsHigh, double height, uint64_t seed) {
+  checkSize(voxelsHigh, height);
+  DensityGrid grid = standingGrid("density", voxelsHigh, height, halfWidth);
+  const Plume plume(static_cast<float>(height), seed);
+  fillInside(grid, [&](size_t index, const vec3& p) { grid.values[index] = plume.density(p); });
   return grid;
+}
+
+FlameGrids makeFlame(int voxelsHigh, double height, uint64_t seed) {
+  checkSize(voxelsHigh, height);
+  FlameGrids grids{standingGrid("density", voxelsHigh, height, Flame::halfWidth * height),
+                   standingGrid("temperature", voxelsHigh, height, Flame::halfWidth * height)};
+  const Flame flame(seed);
+  fillInside(grids.smoke, [&](size_t index, const vec3& p) {
+    const Flame::Gas gas = flame.at(p / static_cast<float>(height));
+    grids.smoke.values[index] = gas.density;
+    grids.temperature.values[index] = gas.kelvin;
+  });
+  return grids;
 }
 
 }  // namespace sfumato::volumes

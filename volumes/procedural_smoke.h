@@ -13,4 +13,12 @@ namespace sfumato::volumes {
 // `height` is in [1, 20]; the same seed gives the same bits, whatever the number of threads.
 DensityGrid makePlume(int voxelsHigh, double height, uint64_t seed);
 
+// A fire on the origin, `height` metres high and about half as wide, and the smoke above it: tongues of flame
+// of up to 2000 K, torn by the same noise. Both grids have one transform. Arguments as for makePlume().
+struct FlameGrids {
+  DensityGrid smoke;        // "density", in [0, 1]
+  DensityGrid temperature;  // "temperature", K; 0 around the fire
+};
+FlameGrids makeFlame(int voxelsHigh, double height, uint64_t seed);
+
 }  // namespace sfumato::volumes

@@ -5,12 +5,13 @@
 #include <numbers>
 
 #include "shaders/shared/volumes.h"
+#include "volumes/fire.h"
 
 namespace sfumato::volumes {
 
 namespace {
 
-// The line start + t * direction in a medium's index space, t as in world space.
+// The line start + t * direction in a grid's index space, t as in world space.
 struct IndexLine {
   glm::dvec3 start;
   glm::dvec3 direction;
@@ -18,8 +19,8 @@ struct IndexLine {
   glm::dvec3 at(double t) const { return start + t * direction; }
 };
 
-IndexLine indexLine(const Medium& medium, const glm::dvec3& pWorld, const glm::dvec3& direction) {
-  const glm::dmat4 indexFromWorld = glm::inverse(medium.worldFromIndex);
+IndexLine indexLine(const glm::dmat4& worldFromIndex, const glm::dvec3& pWorld, const glm::dvec3& direction) {
+  const glm::dmat4 indexFromWorld = glm::inverse(worldFromIndex);
   return {glm::dvec3(indexFromWorld * glm::dvec4(pWorld, 1)),
           glm::dvec3(indexFromWorld * glm::dvec4(direction, 0))};
 }
@@ -44,7 +45,7 @@ bool clipToBox(const DensityGrid& grid, const IndexLine& line, double& tMin, dou
 
 glm::dvec3 opticalDepth(const Medium& medium, const glm::dvec3& from, const glm::dvec3& to,
                         double stepVoxels) {
-  const IndexLine line = indexLine(medium, from, to - from);
+  const IndexLine line = indexLine(medium.worldFromIndex, from, to - from);
   double tMin = 0;
   double tMax = 1;
   if (!clipToBox(medium.grid, line, tMin, tMax)) return glm::dvec3(0);
@@ -78,13 +79,23 @@ double densityAt(const DensityGrid& grid, const glm::dvec3& pIndex) {
 }
 
 glm::dvec3 extinctionAt(const Medium& medium, const glm::dvec3& pWorld) {
-  const double density = densityAt(medium.grid, indexLine(medium, pWorld, glm::dvec3(0)).start);
+  const double density =
+      densityAt(medium.grid, indexLine(medium.worldFromIndex, pWorld, glm::dvec3(0)).start);
   return medium.scale * density * medium.extinctionColour;
 }
 
 bool clipToMedium(const Medium& medium, const glm::dvec3& pWorld, const glm::dvec3& direction, double& tMin,
                   double& tMax) {
-  return clipToBox(medium.grid, indexLine(medium, pWorld, direction), tMin, tMax);
+  return clipToBox(medium.grid, indexLine(medium.worldFromIndex, pWorld, direction), tMin, tMax);
+}
+
+bool clipToFire(const Fire& fire, const glm::dvec3& pWorld, const glm::dvec3& direction, double& tMin,
+                double& tMax) {
+  return clipToBox(fire.grid, indexLine(fire.worldFromIndex, pWorld, direction), tMin, tMax);
+}
+
+glm::dvec3 emissionAt(const Fire& fire, const glm::dvec3& pWorld) {
+  return emissionOf(fire, densityAt(fire.grid, indexLine(fire.worldFromIndex, pWorld, glm::dvec3(0)).start));
 }
 
 glm::dvec3 opticalDepth(std::span<const Medium> media, const glm::dvec3& from, const glm::dvec3& to,

@@ -17,6 +17,11 @@ glm::dvec3 extinctionAt(const Medium& medium, const glm::dvec3& pWorld);
 // Where the ray p + t * direction, t in [tMin, tMax], is inside the medium's box. False when nowhere.
 bool clipToMedium(const Medium& medium, const glm::dvec3& pWorld, const glm::dvec3& direction, double& tMin,
                   double& tMax);
+bool clipToFire(const Fire& fire, const glm::dvec3& pWorld, const glm::dvec3& direction, double& tMin,
+                double& tMax);
+
+// Emission of a fire at a world point: radiance per metre.
+glm::dvec3 emissionAt(const Fire& fire, const glm::dvec3& pWorld);
 
 // Optical depth of the media between two world points per channel, in steps of at most `stepVoxels` voxels of
 // each (midpoint rule).

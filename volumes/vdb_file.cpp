@@ -242,6 +242,19 @@ void copyBricks(const DensityGrid& grid, openvdb::FloatGrid& vdb) {
   });
 }
 
+openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
+  const auto vdb = openvdb::FloatGrid::create(0.f);
+  vdb->setName(grid.name);
+  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
+  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
+  vdb->setSaveFloatAsHalf(grid.half);
+  if (grid.dense())
+    copyDense(grid, *vdb);
+  else
+    copyBricks(grid, *vdb);
+  return vdb;
+}
+
 }  // namespace
 
 DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes) {
@@ -280,24 +293,22 @@ DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridNa
 }
 
 void writeVdb(const std::filesystem::path& path, const DensityGrid& grid) {
-  openvdb::initialize();
-  const auto vdb = openvdb::FloatGrid::create(0.f);
-  vdb->setName(grid.name);
-  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
-  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
-  vdb->setSaveFloatAsHalf(grid.half);
-  if (grid.dense())
-    copyDense(grid, *vdb);
-  else
-    copyBricks(grid, *vdb);
+  const DensityGrid* one = &grid;
+  writeVdb(path, {&one, 1});
+}
 
+void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* const> grids) {
+  openvdb::initialize();
+  openvdb::GridCPtrVec written;
+  for (const DensityGrid* grid : grids) written.push_back(toVdb(*grid));
   base::PendingFile pending(path);
   try {
-    openvdb::io::File(pending.temporary().string()).write({vdb});
+    openvdb::io::File(pending.temporary().string()).write(written);
     // OpenVDB does not say when the disk is full, so the file is looked through.
     const std::vector<std::byte> file = base::readFile(pending.temporary());
     const VdbDirectory directory = readVdbDirectory(file, path.string());
-    layOutVdbGrid(file, path.string(), directory, directory.entries.at(0));
+    for (size_t i = 0; i < written.size(); ++i)
+      layOutVdbGrid(file, path.string(), directory, directory.entries.at(i));
   } catch (const std::exception& error) {
     fail(ExitCode::Input, "{}: cannot be written: {}", path.string(), shown(error.what()));
   }
@@ -315,6 +326,10 @@ DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_
 }
 
 void writeVdb(const std::filesystem::path& path, const DensityGrid&) {
+  writeVdb(path, std::span<const DensityGrid* const>());
+}
+
+void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* const>) {
   base::fail(base::ExitCode::Input, "{}: cannot be written: this build has no OpenVDB", path.string());
 }
 

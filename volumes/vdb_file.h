@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "volumes/grid.h"
@@ -23,5 +24,7 @@ DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridNa
 // Writes the grid (values other than 0 are active) as a fog volume, beside `path` and then renamed.
 // Throws Input when it cannot be written.
 void writeVdb(const std::filesystem::path& path, const DensityGrid& grid);
+// The same for several, by their names, in one file.
+void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* const> grids);
 
 }  // namespace sfumato::volumes

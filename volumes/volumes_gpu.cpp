@@ -9,14 +9,18 @@
 namespace sfumato::volumes {
 namespace {
 
-constexpr size_t maxMedia = 8;
+constexpr size_t maxGrids = 8;
 
-std::vector<PlacedGrid> densitiesOf(std::span<const Medium> media) {
-  if (media.size() > maxMedia)
-    base::fail(base::ExitCode::Memory, "{} volumes: at most {} can be rendered at once: leave some out",
-               media.size(), maxMedia);
+// The densities, then the fires.
+std::vector<PlacedGrid> gridsOf(std::span<const Medium> media) {
   std::vector<PlacedGrid> grids;
   for (const Medium& medium : media) grids.push_back({medium.grid, medium.worldFromIndex});
+  for (const Medium& medium : media)
+    if (medium.fire) grids.push_back({medium.fire->grid, medium.fire->worldFromIndex});
+  if (grids.size() > maxGrids)
+    base::fail(base::ExitCode::Memory,
+               "{} volumes and fires: at most {} can be rendered at once: leave some out", grids.size(),
+               maxGrids);
   return grids;
 }
 
@@ -40,15 +44,30 @@ shared::VolumeData volumeData(const Medium& medium) {
   return data;
 }
 
+// Appends the fire's ramp.
+shared::VolumeData fireData(const Fire& fire, std::vector<glm::vec4>& ramps) {
+  const auto steps = static_cast<float>(fire.ramp.size() - 1);
+  const auto first = static_cast<float>(ramps.size());
+  shared::VolumeData data{};
+  data.ramp = {steps / static_cast<float>(fire.top), first, first + steps, 0.f};
+  data.phase.y = static_cast<float>(voxelSize(fire.worldFromIndex));
+  for (const glm::vec3& colour : fire.ramp) ramps.emplace_back(colour, 0.f);
+  return data;
+}
+
 }  // namespace
 
 VolumesGpu::VolumesGpu(gl::Device& device, std::span<const Medium> media, const GridOptions& options)
-    : count_(media.size()), grids_(device, densitiesOf(media), options) {
+    : count_(media.size()), grids_(device, gridsOf(media), options) {
   std::vector<shared::VolumeData> data;
   for (const Medium& medium : media) {
     data.push_back(volumeData(medium));
     coloured_ = coloured_ || isColoured(medium);
   }
+  std::vector<glm::vec4> ramps;
+  for (const Medium& medium : media)
+    if (medium.fire) data.push_back(fireData(*medium.fire, ramps));
+  if (burning()) ramps_ = gl::Buffer(device, "fire ramps", std::span<const glm::vec4>(ramps));
   data_ = gl::Buffer(device, "volumes", std::span<const shared::VolumeData>(data));
 }
 
@@ -62,6 +81,7 @@ void VolumesGpu::bind() const {
   if (empty()) return;
   grids_.bind();
   data_.bindStorage(STORAGE_VOLUMES);
+  if (burning()) ramps_.bindStorage(STORAGE_FIRE_RAMPS);
 }
 
 }  // namespace sfumato::volumes

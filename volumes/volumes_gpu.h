@@ -20,6 +20,8 @@ class VolumesGpu {
 
   size_t count() const { return count_; }
   bool empty() const { return count_ == 0; }
+  // Passes that see light from fires define FIRE then.
+  bool burning() const { return grids_.count() > count_; }
   // VOLUME_COUNT, those of the grids, and COLOURED_SMOKE where the extinction of some medium has a colour;
   // for programs that include shaders/volumes/media.glsl.
   gl::ShaderDefines defines() const;
@@ -27,8 +29,9 @@ class VolumesGpu {
 
  private:
   size_t count_;
-  GridsGpu grids_;  // the density of each medium
+  GridsGpu grids_;  // the density of each medium, then those of the fires
   gl::Buffer data_;
+  gl::Buffer ramps_;  // of the fires
   bool coloured_ = false;
 };
 

@@ -59,5 +59,8 @@ uint lightsOf(PixelRay ray) {
 ListedLight lightOf(PixelRay ray, uint i) {
   COUNT_LOOKUP(x);
   uint directional = uint(params.options.z);
+#ifdef WALK_LISTS
+  if (i >= directional) return walkedLight(ray.lights, i - directional);
+#endif
   return i < directional ? ListedLight(i, -3e38, 3e38) : listedLight(ray.lights.first + i - directional);
 }

@@ -14,7 +14,7 @@ ivec2 smokeBlockCount() {
 // Depths that differ by less than this see about the same smoke.
 float similarDepth(MediaRay media) {
   float stride = 3e38;
-  for (int v = 0; v < VOLUME_COUNT; ++v) stride = min(stride, media.stride[v]);
+  for (int v = 0; v < MARCHED; ++v) stride = min(stride, media.stride[v]);
   return stride;
 }
 

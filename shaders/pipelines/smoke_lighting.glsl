@@ -1,7 +1,8 @@
-// Light in smoke.
+// Light in smoke and from fire.
 #include "shaders/deepshadow/lookup.glsl"
 #include "shaders/pipelines/multiple_scattering.glsl"
 #include "shaders/pipelines/pixel_ray.glsl"
+#include "shaders/volumes/fire.glsl"
 #include "shaders/volumes/media.glsl"
 
 // Up to four steps of the march, lit together so that what describes a light is read once for all of them.
@@ -18,6 +19,7 @@ struct Steps {
   vec4 size;                     // in depth
   vec4 scattered[VOLUME_COUNT];  // sigma_t of each medium
   vec4 seen[3];                  // throughput of the ray before the step, times the length over which the step is seen, m
+  vec3 emitted;                  // by fires in all of them, as the viewer sees it
 };
 
 void appendStep(inout Steps steps, float depth, float size, float scattered[VOLUME_COUNT], vec3 seen) {
@@ -124,7 +126,7 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
 }
 
 vec3 scattered(Steps steps, PixelRay ray) {
-  vec3 sum = vec3(0.0);
+  vec3 sum = steps.emitted;
   float farthest = steps.depth[steps.count - 1];
   bool reached = true;
   uint walked = 0u;

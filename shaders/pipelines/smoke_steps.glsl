@@ -3,11 +3,12 @@
 
 uint marched = 0u;  // steps of this invocation
 
-// The next steps that hold smoke, at most STEPS of them, from `depth` on and before `limit`; empty ones cost no more than
+// The next steps that hold smoke or fire, at most STEPS of them, from `depth` on and before `limit`; empty ones cost no more than
 // their density. Moves the depth to the end of the last one.
 Steps nextSteps(MediaRay media, float metresPerDepth, float limit, inout float depth, inout vec3 throughput) {
   Steps steps;
   steps.count = 0;
+  steps.emitted = vec3(0.0);
   while (depth < limit && steps.count < STEPS && work < uint(RESOLVE_WORK_LIMIT)) {
     ++work;
     float to = stepEnd(media, depth, limit);
@@ -19,10 +20,13 @@ Steps nextSteps(MediaRay media, float metresPerDepth, float limit, inout float d
       scattered[v] = extinctionOf(v, media, middle);
       sigmaT += inChannels(v, scattered[v]);
     }
-    if (maxComponent(sigmaT) > 0.0) {
+    vec3 emitted = emission(media, middle);
+    if (maxComponent(sigmaT) > 0.0 || maxComponent(emitted) > 0.0) {
       float stepLength = (to - depth) * metresPerDepth;
       Extinction tau = sigmaT * stepLength;
-      appendStep(steps, middle, to - depth, scattered, throughput * seenLength(tau, stepLength));
+      vec3 seen = throughput * seenLength(tau, stepLength);
+      appendStep(steps, middle, to - depth, scattered, seen);
+      steps.emitted += seen * emitted;
       throughput *= exp(-tau);
       if (maxComponent(throughput) < params.march.y) limit = to;
     } else {

@@ -20,6 +20,7 @@
 #define STORAGE_RECEIVER_DEPTHS 8   // of each cell of the light lists
 #define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
 #define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
+#define STORAGE_FIRE_RAMPS 8        // vec4[]: radiance per metre
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
 #define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
@@ -52,6 +53,7 @@
 #define TEXTURE_LIST_LINKED_PAYLOADS 14
 #define TEXTURE_LIGHT_CELL_RUNS 15  // the light lists, likewise
 #define TEXTURE_LIGHT_CELL_KEYS 16
+#define TEXTURE_SHADOW_NODES 17  // of linked shadow lists, for comparisons
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_BRICK_MAP 18
 #define TEXTURE_SMOKE_BLOCKS 19  // RayState of each block of pixels

@@ -3,11 +3,13 @@
 #include "shaders/shared/glsl.h"
 SHARED_BEGIN
 
-// The density of medium v is grid v: see grids.h.
+// The density of medium v is grid v (see grids.h). Behind the media come the fires, whose grids are those behind the
+// densities: they have a ramp and the length of a step, and take and scatter nothing.
 struct VolumeData {
   vec4 extinction;  // rgb: its colour, the largest 1; w: sigma_t per unit of density where the colour is 1, 1/m
   vec4 albedo;      // rgb
   vec4 scattering;  // rgb: albedo times the extinction's colour
+  vec4 ramp;        // of a fire, x: entries of its ramp for one unit of its value, y: number of the first, z: of the last
   vec4 phase;       // x: Henyey-Greenstein g; y: shortest step between voxels, m
 };
 

@@ -9,19 +9,26 @@ layout(std430, binding = STORAGE_VOLUMES) readonly buffer Volumes {
   VolumeData volumes[];
 };
 
-// A ray through all media: points are start + depth * perDepth, in coordinates of each one's grid.
+// The grids that a ray marches through: those of the media and, where FIRE says that something burns, of the fires.
+#ifdef FIRE
+#define MARCHED GRID_COUNT
+#else
+#define MARCHED VOLUME_COUNT
+#endif
+
+// A ray through media and fires: points are start + depth * perDepth, in coordinates of each one's grid.
 struct MediaRay {
-  vec3 start[VOLUME_COUNT];
-  vec3 perDepth[VOLUME_COUNT];
-  vec2 range[VOLUME_COUNT];  // of depth, inside the medium's box; empty when x >= y
-  float stride[VOLUME_COUNT];  // of a march through the medium, in depth
+  vec3 start[MARCHED];
+  vec3 perDepth[MARCHED];
+  vec2 range[MARCHED];  // of depth, inside the medium's box; empty when x >= y
+  float stride[MARCHED];  // of a march through the medium, in depth
   vec2 rangeOfAll;
 };
 
 MediaRay mediaRay(vec3 origin, vec3 perDepth, vec2 depthRange, float stepVoxels) {
   MediaRay ray;
   ray.rangeOfAll = vec2(3e38, -3e38);
-  for (int v = 0; v < VOLUME_COUNT; ++v) {
+  for (int v = 0; v < MARCHED; ++v) {
     vec3 start = (grids[v].gridFromWorld * vec4(origin, 1.0)).xyz;
     vec3 rate = (grids[v].gridFromWorld * vec4(perDepth, 0.0)).xyz;
     vec3 safeRate = mix(rate, vec3(1e-20), lessThan(abs(rate), vec3(1e-20)));
@@ -44,7 +51,7 @@ MediaRay mediaRay(vec3 origin, vec3 perDepth, vec2 depthRange, float stepVoxels)
 // that a surface which cuts one does not move the others.
 float stepEnd(MediaRay ray, float depth, float limit) {
   float stride = 3e38;
-  for (int v = 0; v < VOLUME_COUNT; ++v) {
+  for (int v = 0; v < MARCHED; ++v) {
     if (ray.range[v].x < ray.range[v].y && depth < ray.range[v].y) {
       bool inside = depth >= ray.range[v].x;
       limit = min(limit, inside ? ray.range[v].y : ray.range[v].x);
@@ -70,7 +77,7 @@ float emptyEnd(MediaRay ray, float depth, float to, float limit) {
   if (middle < filledUntil) return to;
   float until = 3e38;
   float stride = 3e38;
-  for (int v = 0; v < VOLUME_COUNT; ++v) {
+  for (int v = 0; v < MARCHED; ++v) {
     if (ray.range[v].x < ray.range[v].y && depth < ray.range[v].y) {
       bool inside = depth >= ray.range[v].x;
       limit = min(limit, inside ? ray.range[v].y : ray.range[v].x);
@@ -93,8 +100,8 @@ float emptyEnd(MediaRay ray, float depth, float to, float limit) {
 // A bound of the steps of a march through all of the ray.
 float stepsAtMost(MediaRay ray) {
   float stride = 3e38;
-  for (int v = 0; v < VOLUME_COUNT; ++v) stride = min(stride, ray.stride[v]);
-  return (ray.rangeOfAll.y - ray.rangeOfAll.x) / stride + float(2 * VOLUME_COUNT);
+  for (int v = 0; v < MARCHED; ++v) stride = min(stride, ray.stride[v]);
+  return (ray.rangeOfAll.y - ray.rangeOfAll.x) / stride + float(2 * MARCHED);
 }
 
 // Extinction of medium v at a depth along the ray in the channel of which it takes most, 1/m.

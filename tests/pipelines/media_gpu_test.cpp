@@ -10,12 +10,12 @@ namespace {
 
 using tests::KnownScene;
 
-constexpr int width = 64;
-constexpr int height = 48;
+constexpr int width = 48;
+constexpr int height = 36;
 
 std::vector<KnownScene> mediaScenes() {
-  return {tests::colouredSlab(), tests::overlappingColours(), tests::colouredShadow(),
-          tests::colouredBalls()};
+  return {tests::colouredSlab(), tests::overlappingColours(), tests::colouredShadow(), tests::colouredBalls(),
+          tests::burningSlab(),  tests::fireBehindSmoke(),    tests::burningBall()};
 }
 
 class MediaGpuFrames : public tests::GpuTest {
@@ -62,6 +62,14 @@ TEST_F(MediaGpuFrames, AGreyColourIsAScale) {
     medium.scale *= 0.5;
   }
   EXPECT_EQ(coloured.radiance.values, draw(known, fine).radiance.values);
+}
+
+TEST_F(MediaGpuFrames, AFireThatIsOutIsSeen) {
+  KnownScene known = tests::burningBall();
+  const image::Image reference =
+      renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
+  known.media[0].fire.reset();
+  EXPECT_GT(errors(draw(known, fine).radiance, reference).failingFraction, 0.1);
 }
 
 TEST_F(MediaGpuFrames, MultipleScatteringIsThatOfTheReference) {

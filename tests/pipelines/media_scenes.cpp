@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/fire_lights.h"
+#include "volumes/fire.h"
+
 namespace sfumato::tests {
 namespace {
 
@@ -17,6 +20,11 @@ volumes::Medium slab(double sigmaT, const glm::dvec3& colour, const glm::dvec3& 
   volumes::Medium medium = block({-4, -4, -0.5}, {4, 4, 0.5}, {4, 4, 16}, sigmaT, albedo, g);
   medium.extinctionColour = colour;
   return medium;
+}
+
+// Emits (3, 2, 1) per metre where the block has the density 1.
+volumes::Fire evenFire(const volumes::Medium& block) {
+  return volumes::makeFire(block.grid, block.worldFromIndex, {.ramp = {{0, 0, 0}, {3, 2, 1}}}, "test");
 }
 
 }  // namespace
@@ -74,6 +82,36 @@ KnownScene furnace(int lights) {
                                                   glm::dvec3(4 * std::numbers::pi / lights)));
   }
   known.scene.cameras.push_back(orthographicCamera({0, 0, 3}, {0, 0, 0}, 1.1));
+  return known;
+}
+
+KnownScene burningSlab() {
+  KnownScene known = colouredSlab();
+  known.name = "burning slab";
+  known.media[0].fire = evenFire(known.media[0]);
+  return known;
+}
+
+KnownScene fireBehindSmoke() {
+  KnownScene known = wallBehind("fire behind smoke");
+  known.media = {block({-4, -4, 0.5}, {4, 4, 1.5}, {4, 4, 16}, 0.75, glm::dvec3(0.9), 0)};
+  known.media[0].fire = evenFire(block({-4, -4, -1.5}, {4, 4, -0.5}, {4, 4, 20}, 1, glm::dvec3(0), 0));
+  return known;
+}
+
+KnownScene burningBall() {
+  KnownScene known{"burning ball", {}, {}};
+  scene::Scene& scene = known.scene;
+  add(scene, quad({-6, 0, 6}, {12, 0, 0}, {0, 0, -12}), lambert({0.6f, 0.6f, 0.6f}));
+  add(scene, quad({-6, 0, -2}, {12, 0, 0}, {0, 6, 0}), lambert({0.5f, 0.5f, 0.5f}));
+  add(scene, box({-0.5f, 1.2f, 0.3f}, {-0.1f, 1.6f, 0.7f}), lambert({0.3f, 0.5f, 0.7f}));
+  known.media = {ball({0, 1.3, 0}, 1, 24, 5, glm::dvec3(0.6), 0.3)};
+  const volumes::Medium heat = ball({0.2, 1.1, 0}, 0.8, 32, 1, glm::dvec3(0), 0);
+  known.media[0].fire =
+      volumes::makeFire(heat.grid, heat.worldFromIndex, {.kelvin = 1900.0, .strength = 0.5}, "test");
+  scene.lights = scene::fireLights(*known.media[0].fire, 2);
+  scene.lights.push_back(directionalLight({0.3, -1, -0.8}, {0.5, 0.5, 0.5}));
+  scene.cameras.push_back(perspectiveCamera({0, 1.6, 5.5}, {0, 1.2, 0}, 0.6));
   return known;
 }
 

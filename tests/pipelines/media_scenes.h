@@ -22,4 +22,13 @@ KnownScene colouredBalls();
 // everywhere, made of so many directional lights; the surround itself is not seen.
 KnownScene furnace(int lights);
 
+// A block that burns evenly before the wall of colouredSlab(): radiance (3, 2, 1) per metre over 1 m. Its
+// smoke has an optical depth of 1.5 and the extinction colour (1, 0.5, 0).
+KnownScene burningSlab();
+// The same fire without smoke, 1 m behind a block of smoke of optical depth 0.75 that does not burn.
+KnownScene fireBehindSmoke();
+// A burning ball of smoke, hot as a black body, before a floor and a wall that two of its own lights light; a
+// box in it.
+KnownScene burningBall();
+
 }  // namespace sfumato::tests

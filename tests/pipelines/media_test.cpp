@@ -62,6 +62,24 @@ TEST(Media, ColouredSmokeCastsAColouredShadow) {
                    dvec3(0.75, 0.5, 0.25) / pi * dvec3(4, 5, 6) * 0.8 * glm::exp(-dvec3(0, 0.5, 2)), 4e-4);
 }
 
+// --- Fire ---
+
+// e / sigma (1 - exp(-sigma d)); where nothing takes light, e d.
+TEST(Fire, AnEvenlyBurningSlabGlowsThroughItsOwnSmoke) {
+  const dvec3 passing(std::exp(-1.5), std::exp(-0.75), 1);
+  const dvec3 seen((1 - passing.r) / 1.5, (1 - passing.g) / 0.75, 1);
+  expectEverywhere(render(tests::burningSlab()), dvec3(3, 2, 1) * seen + passing * wallRadiance,
+                   storedAsFloat);
+}
+
+TEST(Fire, GlowsWhereThereIsNoSmoke) {
+  expectEverywhere(render(tests::fireBehindSmoke()), std::exp(-0.75) * (dvec3(3, 2, 1) + wallRadiance),
+                   storedAsFloat);
+  KnownScene known = tests::burningSlab();
+  known.media[0].scale = 0;
+  expectEverywhere(render(known), dvec3(3, 2, 1) + wallRadiance, storedAsFloat);
+}
+
 // --- Multiple scattering ---
 
 volumes::Medium mediumOf(const dvec3& albedo, double g) {

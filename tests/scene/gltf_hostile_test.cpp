@@ -130,6 +130,10 @@ Json& primitive(Json& j) {
 Json& volume(Json& j) {
   return j["nodes"][4]["extras"];
 }
+Json& burning(Json& j) {
+  volume(j)["volume_fire"] = "flame";
+  return volume(j);
+}
 Json& light(Json& j) {
   return j["extensions"]["KHR_lights_punctual"]["lights"][0];
 }
@@ -412,6 +416,23 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"albedo is a number", [](Json& j) { volume(j)["volume_albedo"] = 0.5; }, "not an array of 3 numbers"},
       {"albedo of four", [](Json& j) { volume(j)["volume_albedo"] = {0, 0, 0, 0}; }, "not an array of 3 numbers"},
       {"albedo with text", [](Json& j) { volume(j)["volume_albedo"] = {0, "x", 0}; }, "not an array of 3 numbers"},
+      {"fire is a number", [](Json& j) { volume(j)["volume_fire"] = 1; }, "volume_fire is not a string"},
+      {"fire without a grid", [](Json& j) { volume(j)["volume_fire_lights"] = 1; }, "volume_fire_lights without a grid"},
+      {"fire of 0 K", [](Json& j) { burning(j)["volume_fire_kelvin"] = 0; }, "volume_fire_kelvin is 0"},
+      {"fire too bright", [](Json& j) { burning(j)["volume_fire_strength"] = 1e7; }, "volume_fire_strength is 1"},
+      {"fire of two looks",
+       [](Json& j) {
+         burning(j)["volume_fire_kelvin"] = 5;
+         burning(j)["volume_fire_ramp"] = {{0, 0, 0}, {1, 1, 1}};
+       },
+       "give one of them"},
+      {"fire of one colour", [](Json& j) { burning(j)["volume_fire_ramp"] = Json::array({{0, 0, 0}}); }, "not an array of 2"},
+      {"fire ramp is text", [](Json& j) { burning(j)["volume_fire_ramp"] = "red"; }, "not an array of 2"},
+      {"fire colour of two", [](Json& j) { burning(j)["volume_fire_ramp"] = {{0, 0, 0}, {1, 1}}; }, "not three numbers"},
+      {"fire colour of text", [](Json& j) { burning(j)["volume_fire_ramp"] = {{0, 0, 0}, {1, "x", 1}}; }, "not three numbers"},
+      {"fire colour below 0", [](Json& j) { burning(j)["volume_fire_ramp"] = {{0, 0, 0}, {1, -1, 1}}; }, "volume_fire_ramp is -1"},
+      {"fire of 65 lights", [](Json& j) { burning(j)["volume_fire_lights"] = 65; }, "volume_fire_lights is 65"},
+      {"fire of half a light", [](Json& j) { burning(j)["volume_fire_lights"] = 0.5; }, "not an integer"},
       {"g of 1", [](Json& j) { volume(j)["volume_g"] = 1; }, "volume_g is 1"},
       {"g of -1", [](Json& j) { volume(j)["volume_g"] = -1.0; }, "volume_g is -1"},
       {"g is true", [](Json& j) { volume(j)["volume_g"] = true; }, "volume_g is not a number"},

@@ -763,6 +763,37 @@ TEST(GltfVolume, AllExtras) {
   EXPECT_EQ(scene.volumes[1].g, 0);
 }
 
+TEST(GltfVolume, Fire) {
+  GltfBuilder gltf;
+  const auto burning = [&](test::Json extras) {
+    extras["volume"] = "a.vdb";
+    gltf.add("nodes", {{"extras", extras}});
+  };
+  burning({{"volume_fire", "temperature"}});
+  burning({{"volume_fire", "heat"},
+           {"volume_fire_kelvin", 2500},
+           {"volume_fire_strength", 0.25},
+           {"volume_fire_lights", 8}});
+  burning({{"volume_fire", "temperature"}, {"volume_fire_ramp", {{0, 0, 0}, {1, 0.5, 0.25}}}});
+  burning({{"volume_fire", "flame"}});
+  burning({});
+  const Scene scene = load(gltf);
+  ASSERT_EQ(scene.volumes.size(), 5u);
+  const auto fire = [&](size_t i) { return scene.volumes[i].fire; };
+  EXPECT_EQ(fire(0).gridName, "temperature");
+  EXPECT_EQ(fire(0).look.kelvin, 1.0);
+  EXPECT_EQ(fire(0).look.strength, 1);
+  EXPECT_EQ(fire(0).lights, 0);
+  EXPECT_EQ(fire(1).look.kelvin, 2500.0);
+  EXPECT_EQ(fire(1).look.strength, 0.25);
+  EXPECT_EQ(fire(1).lights, 8);
+  EXPECT_FALSE(fire(2).look.kelvin);
+  EXPECT_EQ(fire(2).look.ramp, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0.5, 0.25}}));
+  EXPECT_FALSE(fire(3).look.kelvin);
+  EXPECT_GE(fire(3).look.ramp.size(), 2u);
+  EXPECT_EQ(fire(4).gridName, "");
+}
+
 // --- Extensions ---
 
 TEST(GltfExtensions, UnknownOptionalOnesWarnOnceEach) {

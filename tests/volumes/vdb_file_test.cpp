@@ -8,11 +8,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <set>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/random.h"
+#include "volumes/procedural_smoke.h"
 
 #ifdef SFUMATO_OPENVDB
 #include <openvdb/openvdb.h>
@@ -152,6 +154,20 @@ TEST_F(VdbFile, KeepsValuesNamePlaceAndTransformThroughWritingAndReading) {
   EXPECT_EQ(read.size, grid.size);
   EXPECT_EQ(read.values, grid.values);
   EXPECT_EQ(read.worldFromIndex, grid.worldFromIndex);
+}
+
+TEST_F(VdbFile, WritesSeveralGridsIntoOneFile) {
+  const FlameGrids flame = makeFlame(16, 1, 1);
+  const DensityGrid* grids[] = {&flame.smoke, &flame.temperature};
+  writeVdb(path("fire.vdb"), grids);
+  EXPECT_EQ(readVdb(path("fire.vdb"), "").name, "density");
+  const DensityGrid read = readVdb(path("fire.vdb"), "temperature");
+  EXPECT_EQ(read.worldFromIndex, flame.temperature.worldFromIndex);
+  const auto sum = [](const DensityGrid& grid) {
+    return std::accumulate(grid.values.begin(), grid.values.end(), 0.0);
+  };
+  EXPECT_GT(sum(read), 0);
+  EXPECT_EQ(sum(read), sum(flame.temperature));
 }
 
 TEST_F(VdbFile, WritesAFogVolumeThatOpenVdbReads) {
