@@ -222,17 +222,36 @@ openvdb::Mat4d rowVectorMatrix(const glm::dmat4& matrix) {
   return result;
 }
 
-openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
-  const auto vdb = openvdb::FloatGrid::create(0.f);
-  vdb->setName(grid.name);
-  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
-  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
+void copyDense(const DensityGrid& grid, openvdb::FloatGrid& vdb) {
   const openvdb::Coord origin(grid.origin.x, grid.origin.y, grid.origin.z);
   const openvdb::Coord size(grid.size.x, grid.size.y, grid.size.z);
   // Dense wants to be able to write, but copyFromDense only reads.
   const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
       openvdb::CoordBBox(origin, origin + size.offsetBy(-1)), const_cast<float*>(grid.values.data()));
-  openvdb::tools::copyFromDense(dense, *vdb, 0.f);
+  openvdb::tools::copyFromDense(dense, vdb, 0.f);
+}
+
+void copyBricks(const DensityGrid& grid, openvdb::FloatGrid& vdb) {
+  auto accessor = vdb.getAccessor();
+  forEachRow(grid, [&](const glm::ivec3& first, std::span<const float> row) {
+    openvdb::Coord at(grid.origin.x + first.x, grid.origin.y + first.y, grid.origin.z + first.z);
+    for (const float value : row) {
+      if (value != 0) accessor.setValue(at, value);
+      at.x() += 1;
+    }
+  });
+}
+
+openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
+  const auto vdb = openvdb::FloatGrid::create(0.f);
+  vdb->setName(grid.name);
+  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
+  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
+  vdb->setSaveFloatAsHalf(grid.half);
+  if (grid.dense())
+    copyDense(grid, *vdb);
+  else
+    copyBricks(grid, *vdb);
   return vdb;
 }
 

@@ -449,6 +449,17 @@ TEST_F(VdbFile, ReadsWhatIsMostlyEmptyInBricks) {
     }
   });
   EXPECT_EQ(found, grid->activeVoxelCount());
+
+  writeVdb(path("b.vdb"), read);
+  const DensityGrid again = readVdb(path("b.vdb"), "");
+  EXPECT_EQ(again.size, read.size);
+  EXPECT_EQ(again.bricks.map.size(), read.bricks.map.size());
+  EXPECT_EQ(again.bytes(), read.bytes());
+  for (int i = 0; i < 500; ++i) {
+    const glm::ivec3 voxel =
+        glm::ivec3(-300 + (i * 757) % 4000, (i * 113) % 250, (i * 1499) % 4000) - read.origin;
+    EXPECT_EQ(again.value(voxel), read.value(voxel));
+  }
 }
 
 TEST_F(VdbFile, KeepsADenseBoxWhereBricksWouldSaveLittle) {
