@@ -98,7 +98,7 @@ void addSmoke(CLI::App& command, RenderOptions& options) {
       ->type_name("G")
       ->check(between(-0.99, 0.99));
   add("--volume-memory", options.volumeMemory,
-      "Most that all smoke may take on the device: in bricks where a box is more; else what there is")
+      "Most that all smoke takes; more comes in bricks, else what there is")
       ->type_name("BYTES|256M|2G");
 }
 
@@ -168,12 +168,16 @@ void addQuality(CLI::App& command, RenderOptions& options) {
   add("--step", options.stepVoxels, "March through smoke in such steps: 0.01 to 100, else by --quality")
       ->type_name("VOXELS")
       ->check(between(0.01, 100.0));
+  command
+      .add_flag("--half-res-smoke", options.halfResolutionSmoke,
+                "March smoke once for 2 x 2 pixels that see about as far: faster, less sharp")
+      ->group("Quality");
   add("--shadow-res", options.shadowResolution,
-      "Texels a side of every deep shadow map: 32 to 16384, else by --quality and what a light covers")
+      "Texels a side of every deep shadow map: 32 to 16384, else what suits")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
   add("--shadow-error", options.shadowError,
-      "Their compression errs in transmittance at most so: 0 (keep all) to 0.5, else by --quality")
+      "Error bound of their transmittance: 0 to 0.5, else by --quality")
       ->type_name("ERROR")
       ->check(between(0.0, 0.5));
   add("--shadow-filter", options.shadowFilter,
@@ -181,7 +185,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->type_name("NAME")
       ->check(oneOf(pipelines::shadowFilterNames()));
   add("--shadow-memory", options.shadowMemory,
-      "Most that they take together: coarser ones, else 2G or what the device reads")
+      "Most that they may take together, else what the device reads")
       ->type_name("BYTES|64K|256M|2G");
 }
 
@@ -246,7 +250,7 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE.exr")
       ->check(fileName());
   add("--deep-shadow", options.deepShadows,
-      "Write a light's deep shadow map so; LIGHT is its name or number; may be given again")
+      "Write the deep shadow map of a light so: its name or number; may recur")
       ->type_name("LIGHT FILE.exr")
       ->check(fileName())
       ->allow_extra_args(false);

@@ -500,15 +500,16 @@ TEST_F(CommandLineRender, ReportsProgressOnStderr) {
 }
 
 TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
-  // One light: 12 bytes a texel at least.
-  render(
-      {"scene.gltf", "-o", "out.exr", "--stats", "out.json", "--shadow-memory", "100K", "--quality", "high"});
+  // A cube of maps: 12 bytes a texel at least.
+  const Outcome outcome = run({"render", "scene.gltf", "-o", "out.exr", "--res", "64x48", "--quality", "high",
+                               "--stats", "out.json", "--shadow-memory", "24K"});
+  ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
   const Json figures = Json::parse(contentOf(path("out.json")));
   const Json& maps = figures["shadow_maps"];
-  EXPECT_EQ(maps["budget_bytes"], 100 * 1024);
-  EXPECT_LE(maps["bytes"], 100 * 1024);
+  EXPECT_EQ(maps["budget_bytes"], 24 * 1024);
+  EXPECT_EQ(maps["bytes"], 6 * 16 * 16 * 12);
   EXPECT_EQ(maps["lowered"], true);
-  EXPECT_LE(figures["lists"]["shadows"][0]["resolution"], 92);
+  EXPECT_EQ(figures["lists"]["shadows"][0]["resolution"], 32);
   expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "100K", "--shadow-res",
                          "512", "--shadow-error", "0"})),
               5, "deep shadow maps: take 46 times the 0.1 MiB that they may");

@@ -28,8 +28,8 @@ constexpr double far = 7;  // of lamps from the middle of things, m
 
 constexpr ShadowFilter filters[] = {ShadowFilter::Nearest, ShadowFilter::Bilinear, ShadowFilter::Soft};
 constexpr LightType types[] = {LightType::Directional, LightType::Spot, LightType::Point};
-constexpr double elevations[] = {1, 5, 20, 45, 70, 89};  // degrees
-constexpr double finestAt = 5;                           // of them, with 2048 texels, too
+constexpr double elevations[] = {1, 10, 45, 89};  // degrees
+constexpr double finestAt = 10;                   // of them, with 2048 texels, too
 constexpr double spotAngle = 0.5;
 
 // A light that shines at the origin from `degrees` over the plane y = 0.
@@ -218,8 +218,8 @@ TEST_F(ShadowFilterGpu, BehindAThinWallItIsDark) {
           }
         }
       });
-  EXPECT_GT(dark, 30000u);
-  EXPECT_GT(lit, 30000u);
+  EXPECT_GT(dark, 20000u);
+  EXPECT_GT(lit, 20000u);
 }
 
 // RMS of what the values are off the straight line that fits them best.
