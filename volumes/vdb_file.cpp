@@ -44,7 +44,7 @@ std::string listGrids(const VdbDirectory& directory) {
 
 // The float grid of that name; without a name "density", else the only float grid.
 const VdbEntry& chooseGrid(const VdbDirectory& directory, const std::string& path,
-                           const std::string& gridName) {
+                           const std::string& gridName, const std::string& option) {
   std::vector<const VdbEntry*> floats, named;
   for (const VdbEntry& entry : directory.entries) {
     if (entry.type != "float") continue;
@@ -57,10 +57,11 @@ const VdbEntry& chooseGrid(const VdbDirectory& directory, const std::string& pat
   const std::string wanted = shown(gridName.empty() ? "density" : gridName);
   if (named.empty())
     fail(ExitCode::Input, "{}: no float grid \"{}\" (has: {}): {}", path, wanted, listGrids(directory),
-         floats.empty() ? "export one of floats" : "choose one with --grid NAME");
+         floats.empty() ? std::string("export one of floats")
+                        : fmt::format("choose one with {} NAME", option));
   if (named.size() > 1)
-    fail(ExitCode::Input, "{}: {} grids are called \"{}\": choose one with --grid \"{}\"", path, named.size(),
-         wanted, shown(named[0]->shownName));
+    fail(ExitCode::Input, "{}: {} grids are called \"{}\": choose one with {} \"{}\"", path, named.size(),
+         wanted, option, shown(named[0]->shownName));
   return *named[0];
 }
 
@@ -257,10 +258,11 @@ openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
 
 }  // namespace
 
-DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes) {
+DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes,
+                    const std::string& option) {
   const std::vector<std::byte> file = base::readFile(path);
   const VdbDirectory directory = readVdbDirectory(file, path.string());
-  const VdbEntry& entry = chooseGrid(directory, path.string(), gridName);
+  const VdbEntry& entry = chooseGrid(directory, path.string(), gridName, option);
   const std::string place = fmt::format("{}: grid \"{}\"", path.string(), shown(entry.shownName));
   const VdbGridLayout layout = layOutVdbGrid(file, path.string(), directory, entry);
   if (layout.gridClass == "level set")
@@ -321,7 +323,7 @@ void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* co
 
 namespace sfumato::volumes {
 
-DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_t) {
+DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_t, const std::string&) {
   base::fail(base::ExitCode::Input, "{}: cannot be read: this build has no OpenVDB", path.string());
 }
 

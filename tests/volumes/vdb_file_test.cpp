@@ -156,6 +156,12 @@ TEST_F(VdbFile, KeepsValuesNamePlaceAndTransformThroughWritingAndReading) {
   EXPECT_EQ(read.worldFromIndex, grid.worldFromIndex);
 }
 
+TEST_F(VdbFile, SaysWithWhichOptionToChooseAnother) {
+  save(path("a.vdb"), {fogGrid("heat")});
+  EXPECT_EQ(errorOf(ExitCode::Input, [&] { readVdb(path("a.vdb"), "flame", usualVdbBytes, "--fire"); }),
+            "a.vdb: no float grid \"flame\" (has: heat (float)): choose one with --fire NAME");
+}
+
 TEST_F(VdbFile, WritesSeveralGridsIntoOneFile) {
   const FlameGrids flame = makeFlame(16, 1, 1);
   const DensityGrid* grids[] = {&flame.smoke, &flame.temperature};
