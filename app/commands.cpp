@@ -180,8 +180,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Look shadows up so: nearest, bilinear, soft; else by --quality")
       ->type_name("NAME")
       ->check(oneOf(pipelines::shadowFilterNames()));
-  add("--shadow-memory", options.shadowMemory,
-      "Most that they may take together, else what the device reads")
+  add("--shadow-memory", options.shadowMemory, "Most that they may take together, else what the device reads")
       ->type_name("BYTES|64K|256M|2G");
 }
 
@@ -245,8 +244,7 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   add("--deep", options.deep, "Write what lies along each pixel's depth, for deep compositing")
       ->type_name("FILE.exr")
       ->check(fileName());
-  add("--deep-shadow", options.deepShadows,
-      "Write the deep shadow map of a light, by name or number; may be given again")
+  add("--deep-shadow", options.deepShadows, "Write the map of a light, by name or number; may be given again")
       ->type_name("LIGHT FILE.exr")
       ->check(fileName())
       ->allow_extra_args(false);
