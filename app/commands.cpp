@@ -168,6 +168,10 @@ void addQuality(CLI::App& command, RenderOptions& options) {
   add("--step", options.stepVoxels, "March through smoke in such steps: 0.01 to 100, else by --quality")
       ->type_name("VOXELS")
       ->check(between(0.01, 100.0));
+  command
+      .add_flag("--half-res-smoke", options.halfResolutionSmoke,
+                "March smoke once for 2 x 2 pixels that see about as far: faster, less sharp")
+      ->group("Quality");
   add("--shadow-res", options.shadowResolution,
       "Texels a side of every deep shadow map: 32 to 16384, else what suits")
       ->type_name("TEXELS")
@@ -244,7 +248,8 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   add("--deep", options.deep, "Write what lies along each pixel's depth, for deep compositing")
       ->type_name("FILE.exr")
       ->check(fileName());
-  add("--deep-shadow", options.deepShadows, "Write the map of a light, by name or number; may be given again")
+  add("--deep-shadow", options.deepShadows,
+      "Write the deep shadow map of a light so: its name or number; may recur")
       ->type_name("LIGHT FILE.exr")
       ->check(fileName())
       ->allow_extra_args(false);

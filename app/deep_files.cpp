@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "image/image_file.h"
+#include "pipelines/deep_pixels.h"
 
 namespace sfumato::app {
 namespace {
@@ -66,7 +67,9 @@ std::vector<size_t> deepShadowLights(const RenderOptions& options, const scene::
 
 void writeDeepFiles(const RenderOptions& options, const Drawn& drawn, const image::Metadata& settings) {
   if (drawn.deep) {
-    image::writeDeep(options.deep, {&*drawn.deep, 1}, settings);
+    image::Metadata metadata = settings;
+    metadata.emplace_back("sfumato:deep_error", fmt::format("{}", pipelines::deepError));
+    image::writeDeep(options.deep, {&*drawn.deep, 1}, metadata);
     base::note("wrote {}", options.deep);
   }
   for (size_t i = 0; i < drawn.deepShadows.size(); ++i) {

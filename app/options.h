@@ -43,6 +43,7 @@ struct RenderOptions {
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
+  bool halfResolutionSmoke = false;
   std::optional<double> shadowError;
   std::string shadowFilter;   // empty: by quality
   std::string shadowMemory;   // empty: what the device reads

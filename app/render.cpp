@@ -17,6 +17,7 @@
 #include "base/size_text.h"
 #include "base/version.h"
 #include "image/image_file.h"
+#include "pipelines/list_prediction.h"
 #include "pipelines/reference.h"
 #include "scene/camera_view.h"
 #include "scene/default_set.h"
@@ -143,6 +144,7 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   if (!options.shadowMemory.empty())
     quality.shadowMemory = lists::bytesNamed(options.shadowMemory, "--shadow-memory");
   quality.scatteringOctaves = options.scatteringOctaves;
+  if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
@@ -233,6 +235,19 @@ std::string wayOfDrawing(const RenderOptions& options, const pipelines::Quality&
                      quality.shadowResolution, quality.shadowError);
 }
 
+// What the lists will hold at most about, as far as their bounds tell.
+void printLists(const RenderOptions& options, const Shot& shot) {
+  const pipelines::ListPrediction lists = pipelines::predictLists(
+      shot.scene, shot.media, shot.camera, options.width, options.height, shot.quality);
+  const auto line = [](const char* name, const pipelines::PredictedLists& predicted) {
+    base::print("lists    {}: about {} nodes in {} lists, {}\n", name, predicted.nodes, predicted.cells,
+                base::sizeText(predicted.bytes));
+  };
+  line("surfaces", lists.surfaces);
+  line("lights", lists.lights);
+  line("shadows", lists.allShadows());
+}
+
 void printPlan(const RenderOptions& options, const Shot& shot) {
   const scene::Scene& scene = shot.scene;
   size_t triangles = 0;
@@ -253,6 +268,7 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
   base::print("camera   {}\n", camera ? "\"" + camera->name + "\"" : "placed so that it sees everything");
   base::print("frame    {}x{}, quality {}: step {} voxels, {}\n", options.width, options.height,
               options.quality, shot.quality.stepVoxels, wayOfDrawing(options, shot.quality));
+  if (!options.reference) printLists(options, shot);
   for (const std::string& output : options.outputs) base::print("output   {}\n", output);
   for (const std::string& file : heatMapFiles(options)) base::print("output   {}\n", file);
   for (const std::string& file : deepFiles(options)) base::print("output   {}\n", file);

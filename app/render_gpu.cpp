@@ -82,9 +82,13 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   noteShadowMaps(frame.statistics);
   warnOfProblems(device, frame.statistics);
-  return {std::move(frame.radiance), std::move(frame.aovs),
-          std::move(frame.deep),     std::move(frame.deepShadows),
-          device.names().renderer,   statisticsText(device, frame.statistics, times)};
+  Drawn drawn{std::move(frame.radiance),    std::move(frame.aovs),   std::move(frame.deep),
+              std::move(frame.deepShadows), device.names().renderer, {}};
+  if (options.statistics.empty()) return drawn;
+  const pipelines::ListPrediction fromBounds = pipelines::predictLists(
+      shot.scene, shot.media, shot.camera, options.width, options.height, shot.quality);
+  drawn.statistics = statisticsText(device, frame.statistics, fromBounds, times);
+  return drawn;
 }
 
 }  // namespace sfumato::app

@@ -7,9 +7,10 @@
 namespace sfumato::app {
 namespace {
 
-nlohmann::json toJson(const lists::ListStatistics& lists) {
+nlohmann::json toJson(const lists::ListStatistics& lists, const pipelines::PredictedLists& fromBounds) {
   return {{"strategy", lists::nameOf(lists.strategy)},
           {"cells", lists.cells},
+          {"nodes_from_bounds", fromBounds.nodes},
           {"nodes_predicted", lists.predicted},
           {"nodes_demanded", lists.demand},
           {"nodes_stored", lists.stored},
@@ -25,6 +26,7 @@ nlohmann::json toJson(const lists::ListStatistics& lists) {
           {"windows", lists.windows},
           {"distrusted", lists.distrusted},
           {"node_bytes", lists.nodeBytes},
+          {"bytes_from_bounds", fromBounds.bytes},
           {"predicted_bytes", lists.predictedBytes},
           {"bytes", lists.bytes}};
 }
@@ -35,7 +37,9 @@ nlohmann::json toJson(const pipelines::Lookups& lookups) {
     return nlohmann::json{{"mean", static_cast<double>(all) / pixels}, {"max", most}};
   };
   return {{"lights_per_pixel", perPixel(lookups.lights, lookups.mostLights)},
-          {"shadows_per_pixel", perPixel(lookups.shadows, lookups.mostShadows)}};
+          {"shadows_per_pixel", perPixel(lookups.shadows, lookups.mostShadows)},
+          {"smoke_steps", lookups.steps},
+          {"smoke_steps_jumped", lookups.jumpedSteps}};
 }
 
 nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {
@@ -51,7 +55,7 @@ nlohmann::json toJson(const std::vector<gl::PassTime>& passes) {
 }  // namespace
 
 std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics& statistics,
-                           const RunTimes& times) {
+                           const pipelines::ListPrediction& fromBounds, const RunTimes& times) {
   nlohmann::json result;
   result["device"] = device.names().renderer;
   result["startup"] = {{"seconds", times.startupSeconds}, {"passes", toJson(times.startupPasses)}};
@@ -60,10 +64,12 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
       {"triangles", statistics.triangles},      {"tiles", statistics.tiles},
       {"split_pixels", statistics.splitPixels}, {"resolve_dispatches", statistics.resolveDispatches},
       {"cut_walks", statistics.cutWalks},       {"lookups", toJson(statistics.lookups)}};
-  result["lists"] = {{"surfaces", toJson(statistics.surfaces)}, {"lights", toJson(statistics.lights)}};
+  result["lists"] = {{"surfaces", toJson(statistics.surfaces, fromBounds.surfaces)},
+                     {"lights", toJson(statistics.lights, fromBounds.lights)}};
   result["lists"]["shadows"] = nlohmann::json::array();
-  for (const deepshadow::LightMap& map : statistics.shadows) {
-    nlohmann::json light = toJson(map.lists);
+  for (size_t i = 0; i < statistics.shadows.size(); ++i) {
+    const deepshadow::LightMap& map = statistics.shadows[i];
+    nlohmann::json light = toJson(map.lists, fromBounds.shadows[i]);
     light["faces"] = map.faces;
     light["texels"] = map.texels;
     light["resolution"] = map.resolution;

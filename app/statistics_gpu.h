@@ -6,6 +6,7 @@
 
 #include "gl/device.h"
 #include "pipelines/linked_lists_gpu.h"
+#include "pipelines/list_prediction.h"
 
 namespace sfumato::app {
 
@@ -16,7 +17,8 @@ struct RunTimes {
   std::vector<gl::PassTime> framePasses;  // of the last frame
 };
 
+// `fromBounds`: what was predicted for the frame.
 std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics& statistics,
-                           const RunTimes& times);
+                           const pipelines::ListPrediction& fromBounds, const RunTimes& times);
 
 }  // namespace sfumato::app

@@ -12,14 +12,24 @@
 #include "lists/strategy.h"
 #include "lists/stress/load.h"
 #include "lists/stress/verification.h"
+#include "pipelines/list_prediction.h"
 
 namespace sfumato::app {
+
+// Nodes of each list, where cells make a picture; rows from the top.
+struct LengthGrid {
+  size_t width = 0;
+  size_t height = 0;
+  std::vector<uint32_t> lengths;
+};
 
 // One container of lists, built and judged.
 struct StressRun {
   std::string load;  // the distribution; of a scene "surfaces", "lights", "shadows"
   std::optional<lists::stress::Load> synthetic;
-  int lights = 0;  // of a scene
+  int lights = 0;                        // of a scene
+  pipelines::PredictedLists fromBounds;  // of a scene
+  LengthGrid grid;                       // of a scene, where all its cells were built at once
   lists::ListOptions options;
 
   std::string refused;  // why it was not built, or empty; then nothing of what follows is there

@@ -282,11 +282,14 @@ Plot histogram(const Runs& largest) {
   return plot;
 }
 
+LengthGrid gridOf(const Load& load) {
+  return {static_cast<size_t>(load.width), static_cast<size_t>(load.height), lengthsOf(load)};
+}
+
 // The longest list of each block of cells where there are more than fit the page.
 image::CountMap lengthMap(const StressRun& run) {
-  const Load& load = *run.synthetic;
-  const std::vector<uint32_t> lengths = lengthsOf(load);
-  const auto columns = static_cast<size_t>(load.width), rows = static_cast<size_t>(load.height);
+  const LengthGrid grid = run.synthetic ? gridOf(*run.synthetic) : run.grid;
+  const size_t columns = grid.width, rows = grid.height;
   const size_t block = (std::max(columns, rows) + mostMapCells - 1) / mostMapCells;
   image::CountMap map{
       .title = "Heat map of list lengths: " + run.load,
@@ -299,7 +302,7 @@ image::CountMap lengthMap(const StressRun& run) {
   for (size_t y = 0; y < rows; ++y)
     for (size_t x = 0; x < columns; ++x) {
       uint32_t& count = map.counts[y / block * map.width + x / block];
-      count = std::max(count, lengths[y * columns + x]);
+      count = std::max(count, grid.lengths[y * columns + x]);
     }
   return map;
 }
@@ -325,10 +328,12 @@ void addSweepPlots(const Runs& runs, image::Report& report) {
 void addLengths(const Runs& runs, image::Report& report) {
   const Runs largest = largestRuns(plainRuns(runs).empty() ? runs : plainRuns(runs));
   report.parts.emplace_back(histogram(largest));
-  if (!runs.front()->synthetic) return;
-  for (const std::string& load : distinct<std::string>(largest, loadOf))
-    report.parts.emplace_back(
-        lengthMap(*where(largest, [&](const StressRun& run) { return run.load == load; }).front()));
+  for (const std::string& load : distinct<std::string>(largest, loadOf)) {
+    const Runs shown = where(largest, [&](const StressRun& run) {
+      return run.load == load && (run.synthetic || run.grid.width > 0);
+    });
+    if (!shown.empty()) report.parts.emplace_back(lengthMap(*shown.front()));
+  }
 }
 
 }  // namespace

@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "app/shot.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "lists/stress/audit_gpu.h"
 #include "pipelines/linked_lists_gpu.h"
 
 namespace sfumato::app {
+
+using lists::stress::Audit;
+
 namespace {
 
 // A deep shadow map for each of thousands of lights would take more than all else.
@@ -62,27 +67,60 @@ double secondsOf(gl::Device& device, const std::string& prefix, std::initializer
   return milliseconds / 1000;
 }
 
-StressRun runOf(gl::Device& device, const char* name, const std::string& pass,
-                const lists::ListStatistics& statistics) {
+// How a kind of lists is called in reports, by its container, and by the pass that builds it.
+struct ListKind {
+  const char* name;
+  const char* label;
+  const char* pass;
+};
+constexpr ListKind shadowLists = {"shadows", "deep shadow lists", "deep shadow maps"};
+constexpr ListKind lightLists = {"lights", "light lists", "light lists"};
+constexpr ListKind surfaceLists = {"surfaces", "surface lists", "surface lists"};
+
+// A container whose nodes were all found, or why not.
+StressRun runOf(const ListKind& kind, const lists::ListStatistics& statistics, const Audit& audit,
+                const pipelines::PredictedLists& fromBounds) {
   StressRun run;
-  run.load = name;
+  run.load = kind.name;
   run.statistics = statistics;
-  run.findings.lost = statistics.demand - std::min(statistics.demand, statistics.stored);
-  if (run.findings.lost > 0) run.findings.fault = fmt::format("{} nodes are in no list", run.findings.lost);
-  run.findings.rebuilt = static_cast<size_t>(statistics.distrusted);
-  if (run.findings.rebuilt > 0)
-    run.findings.fault = "the strategy lost nodes: the lists were built again by another one";
-  run.buildSeconds = secondsOf(device, pass, {"count", "scatter", "link"});
-  run.resolveSeconds = secondsOf(device, pass, {"gather", "sort"});
+  run.fromBounds = fromBounds;
+  const auto audited = audit.audited().find(kind.label);
+  if (audited != audit.audited().end()) {
+    run.findings = audited->second.findings;
+    run.lookups = audited->second.lookups;
+    run.lookupSeconds = audited->second.lookupSeconds;
+  }
+  const auto blame = [&](size_t& found, size_t count, std::string fault) {
+    found = std::max(found, count);
+    if (count > 0 && run.findings.fault.empty()) run.findings.fault = std::move(fault);
+  };
+  const size_t missing = statistics.demand - std::min(statistics.demand, statistics.stored);
+  blame(run.findings.lost, missing, fmt::format("{} nodes are in no list", missing));
+  blame(run.findings.rebuilt, static_cast<size_t>(statistics.distrusted),
+        "the strategy lost nodes: the lists were built again by another one");
+  blame(run.findings.hidden, statistics.hidden,
+        fmt::format("{} nodes lie behind opaque surfaces", statistics.hidden));
   return run;
 }
 
-std::vector<StressRun> runsOf(gl::Device& device, const pipelines::FrameStatistics& statistics) {
+std::vector<StressRun> runsOf(const pipelines::FrameStatistics& statistics, const Audit& audit,
+                              const pipelines::ListPrediction& fromBounds) {
   lists::ListStatistics shadows;
   for (const deepshadow::LightMap& map : statistics.shadows) shadows += map.lists;
-  return {runOf(device, "shadows", "deep shadow maps", shadows),
-          runOf(device, "lights", "light lists", statistics.lights),
-          runOf(device, "surfaces", "surface lists", statistics.surfaces)};
+  return {runOf(shadowLists, shadows, audit, fromBounds.allShadows()),
+          runOf(lightLists, statistics.lights, audit, fromBounds.lights),
+          runOf(surfaceLists, statistics.surfaces, audit, fromBounds.surfaces)};
+}
+
+// The nodes of each cell, rows from the top; nothing where not all of them were built at once.
+LengthGrid gridOf(const Audit& audit, const ListKind& kind, size_t width, size_t height) {
+  const auto found = audit.audited().find(kind.label);
+  if (found == audit.audited().end() || found->second.lengths.size() != width * height) return {};
+  LengthGrid grid{width, height, {}};
+  for (size_t y = height; y-- > 0;)
+    grid.lengths.insert(grid.lengths.end(), found->second.lengths.begin() + static_cast<long>(y * width),
+                        found->second.lengths.begin() + static_cast<long>((y + 1) * width));
+  return grid;
 }
 
 // Pixels with other bits.
@@ -93,55 +131,138 @@ size_t differentPixels(const image::Image& a, const image::Image& b) {
   return different;
 }
 
+// Draws the scene's frame again and again.
+class SceneStress {
+ public:
+  SceneStress(gl::Device& device, const StressOptions& options, StressResult& result)
+      : device_(device),
+        options_(options),
+        shot_(makeShot(options.shot)),
+        bounds_(boundsOf(shot_.scene, shot_.media)),
+        ownLights_(shot_.scene.lights),
+        pipeline_(device, shot_.scene, shot_.media),
+        result_(result) {}
+
+  // As many seeded lights, from now on.
+  void setLights(int count) {
+    shot_.scene.lights = ownLights_;
+    for (const scene::Light& light : seededLights(bounds_, count, options_.seed))
+      shot_.scene.lights.push_back(light);
+    first_.reset();
+  }
+
+  // What a container says by an error is a result here.
+  void run(const lists::ListOptions& kind) {
+    std::vector<StressRun> runs(1);
+    runs.front().load = "frame";
+    try {
+      runs = drawAndJudge(kind);
+    } catch (const base::Error& error) {
+      if (error.exitCode == base::ExitCode::Memory)
+        runs.front().refused = error.what();
+      else if (error.exitCode == base::ExitCode::CheckFailed)
+        runs.front().findings = {.lost = 1, .fault = error.what()};  // how many, nobody knows
+      else
+        throw;
+    }
+    for (StressRun& run : runs) {
+      run.options = kind;
+      run.lights = static_cast<int>(shot_.scene.lights.size());
+      result_.runs.push_back(std::move(run));
+    }
+  }
+
+ private:
+  pipelines::Frame draw(const lists::ListOptions& kind) {
+    device_.profiler().reset();
+    shot_.quality.lists = kind;
+    return pipeline_.render(shot_.camera, options_.shot.width, options_.shot.height, shot_.quality);
+  }
+
+  // The first frame is audited, and compiles shaders; the others are measured.
+  std::vector<StressRun> drawAndJudge(const lists::ListOptions& kind) {
+    Audit audit;
+    audit.allocates(device_);
+    lists::ListOptions watched = kind;
+    watched.observer = &audit;
+    const pipelines::Frame audited = draw(watched);
+    audit.allocates(device_);
+    std::vector<StressRun> runs =
+        runsOf(audited.statistics, audit,
+               pipelines::predictLists(shot_.scene, shot_.media, shot_.camera, options_.shot.width,
+                                       options_.shot.height, shot_.quality));
+    if (!first_) setGrids(audit, runs);
+    size_t different = differentFromFirst(audited.radiance);
+    for (int i = 0; i < options_.repeat; ++i) {
+      different += differentFromFirst(draw(kind).radiance);
+      setTimes(runs, i == 0);
+    }
+    StressRun& last = runs.back();
+    last.findings.different = different;
+    if (different > 0 && last.findings.fault.empty())
+      last.findings.fault = fmt::format("{} pixels are others than with the first strategy", different);
+    last.findings.overwritten = audit.overwritten();
+    if (last.findings.overwritten > 0 && last.findings.fault.empty())
+      last.findings.fault =
+          fmt::format("{} words beside the lists were overwritten", last.findings.overwritten);
+    return runs;
+  }
+
+  size_t differentFromFirst(const image::Image& radiance) {
+    if (!first_) first_ = radiance;
+    return differentPixels(*first_, radiance);
+  }
+
+  // One of each kind and number of lights is enough: all strategies make the same lists.
+  void setGrids(const Audit& audit, std::vector<StressRun>& runs) const {
+    const auto width = static_cast<size_t>(options_.shot.width);
+    const auto height = static_cast<size_t>(options_.shot.height);
+    const auto side = [&](const ListKind& kind) {
+      const auto found = audit.audited().find(kind.label);
+      return found == audit.audited().end()
+                 ? 0
+                 : static_cast<size_t>(std::lround(std::sqrt(found->second.lengths.size())));
+    };
+    runs[0].grid = gridOf(audit, shadowLists, side(shadowLists), side(shadowLists));  // the first face
+    runs[1].grid = gridOf(audit, lightLists, (width + 3) / 4, (height + 3) / 4);
+    runs[2].grid = gridOf(audit, surfaceLists, width, height);
+  }
+
+  // Of the last frame; the least count.
+  void setTimes(std::vector<StressRun>& runs, bool first) {
+    const char* const passes[] = {shadowLists.pass, lightLists.pass, surfaceLists.pass};
+    for (size_t i = 0; i < runs.size(); ++i) {
+      const double build = secondsOf(device_, passes[i], {"count", "scatter", "link"});
+      const double resolve = secondsOf(device_, passes[i], {"gather", "sort"});
+      runs[i].buildSeconds = first ? build : std::min(runs[i].buildSeconds, build);
+      runs[i].resolveSeconds = first ? resolve : std::min(runs[i].resolveSeconds, resolve);
+    }
+  }
+
+  gl::Device& device_;
+  const StressOptions& options_;
+  Shot shot_;
+  const scene::Bounds bounds_;
+  const std::vector<scene::Light> ownLights_;
+  pipelines::LinkedListsPipeline pipeline_;
+  StressResult& result_;
+  std::optional<image::Image> first_;  // the picture of the first strategy
+};
+
 }  // namespace
 
 void stressScene(gl::Device& device, const StressOptions& options, const std::function<bool()>& stop,
                  StressResult& result) {
-  Shot shot = makeShot(options.shot);
-  const scene::Bounds bounds = boundsOf(shot.scene, shot.media);
-  const std::vector<scene::Light> ownLights = shot.scene.lights;
   const std::vector<lists::ListOptions> kinds = listOptions(options);
   const std::vector<int> counts = lightCounts(options);
   device.profiler().enable();
-  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media);
+  SceneStress stress(device, options, result);
   base::Progress progress("stress", static_cast<long>(counts.size() * kinds.size()));
   for (const int count : counts) {
-    shot.scene.lights = ownLights;
-    for (const scene::Light& light : seededLights(bounds, count, options.seed))
-      shot.scene.lights.push_back(light);
-    std::optional<image::Image> first;
+    stress.setLights(count);
     for (const lists::ListOptions& kind : kinds) {
       if (stop()) return;
-      shot.quality.lists = kind;
-      std::vector<StressRun> runs(1);
-      runs.front().load = "frame";
-      try {
-        pipelines::Frame frame;
-        for (int i = 0; i < options.repeat + 1; ++i) {  // the first one compiles shaders
-          device.profiler().reset();
-          frame = pipeline.render(shot.camera, options.shot.width, options.shot.height, shot.quality);
-        }
-        runs = runsOf(device, frame.statistics);
-        if (!first) first = frame.radiance;
-        if (const size_t different = differentPixels(*first, frame.radiance)) {
-          runs.back().findings.different = different;
-          runs.back().findings.fault =
-              fmt::format("{} pixels are others than with the first strategy", different);
-        }
-      } catch (const base::Error& error) {
-        if (error.exitCode == base::ExitCode::Memory) {
-          runs.front().refused = error.what();
-        } else if (error.exitCode == base::ExitCode::CheckFailed) {
-          runs.front().findings = {.lost = 1, .fault = error.what()};  // how many, nobody knows
-        } else {
-          throw;
-        }
-      }
-      for (StressRun& run : runs) {
-        run.options = kind;
-        run.lights = static_cast<int>(shot.scene.lights.size());
-        result.runs.push_back(run);
-      }
+      stress.run(kind);
       progress.advance();
     }
   }

@@ -42,16 +42,26 @@ std::string sizeOf(const StressRun& run) {
 
 Row headOf(const StressResult& result) {
   const bool scene = !result.runs.empty() && !result.runs.front().synthetic;
-  return {"strategy", scene ? "lists" : "load",
-          "cells",    scene ? "lights" : "layers",
-          "payload",  "budget",
-          "demanded", "stored",
-          "lost",     "faults",
-          "B/node",   "predicted",
-          "peak",     "windows",
-          "builds",   "spins",
-          "longest",  "build",
-          "resolve",  "lookups"};
+  return {"strategy",
+          scene ? "lists" : "load",
+          "cells",
+          scene ? "lights" : "layers",
+          scene ? "from bounds" : "payload",
+          "budget",
+          "demanded",
+          "stored",
+          "lost",
+          "faults",
+          "B/node",
+          "predicted",
+          "peak",
+          "windows",
+          "builds",
+          "spins",
+          "longest",
+          "build",
+          "resolve",
+          "lookups"};
 }
 
 Row rowOf(const StressRun& run) {
@@ -60,7 +70,9 @@ Row rowOf(const StressRun& run) {
              run.load,
              sizeOf(run),
              std::to_string(run.synthetic ? run.synthetic->layers : run.lights),
-             run.synthetic ? std::to_string(run.synthetic->payloadWords * 4) : "-",
+             run.synthetic
+                 ? std::to_string(run.synthetic->payloadWords * 4)
+                 : fmt::format("{} / {}", run.fromBounds.nodes, base::sizeText(run.fromBounds.bytes)),
              run.options.budgetBytes == 0 ? "-" : base::sizeText(run.options.budgetBytes)};
   if (!run.refused.empty()) {
     row.push_back("refused");
@@ -78,9 +90,11 @@ Row rowOf(const StressRun& run) {
   return row;
 }
 
-constexpr const char* units =
-    "spins: of 99 % and of all; build, resolve: million nodes/s; lookups: "
-    "million/s\n";
+std::string unitsOf(const StressResult& result) {
+  const bool scene = !result.runs.empty() && !result.runs.front().synthetic;
+  return std::string(scene ? "from bounds: nodes and bytes predicted from the scene's shapes; " : "") +
+         "spins: of 99 % and of all; build, resolve: million nodes/s; lookups: million/s\n";
+}
 
 std::string describe(const StressRun& run) {
   if (!run.synthetic)
@@ -144,7 +158,10 @@ Json settingsJson(const StressRun& run) {
                {"on_overflow", nameOf(run.options.onOverflow)},
                {"budget_bytes", run.options.budgetBytes == 0 ? Json() : Json(run.options.budgetBytes)}};
   if (!run.synthetic) {
-    json.update({{"lists", run.load}, {"lights", run.lights}});
+    json.update({{"lists", run.load},
+                 {"lights", run.lights},
+                 {"nodes_from_bounds", run.fromBounds.nodes},
+                 {"bytes_from_bounds", run.fromBounds.bytes}});
     return json;
   }
   const lists::stress::Load& load = *run.synthetic;
@@ -180,8 +197,10 @@ Json runJson(const StressRun& run) {
        {"different", f.different},
        {"rebuilt", f.rebuilt},
        {"overwritten", f.overwritten},
+       {"hidden", f.hidden},
        {"fault", f.fault},
        {"bytes_per_node", s.nodeBytes},
+       {"nodes_counted", s.predicted},
        {"predicted_bytes", s.predictedBytes},
        {"peak_bytes", s.bytes},
        {"capacity", s.capacity},
@@ -225,10 +244,10 @@ std::string verdictOf(const StressResult& result) {
   for (const StressRun& run : result.runs) stored += run.statistics.stored;
   std::string line = fmt::format("{} runs, {} nodes: ", result.runs.size(), stored);
   const bool scene = !result.runs.empty() && !result.runs.front().synthetic;
-  line +=
-      result.badRuns() == 0
-          ? (scene ? "none lost, the same picture from every strategy" : "none lost, none twice, all sorted")
-          : fmt::format("{} runs are bad, {} nodes are lost", result.badRuns(), result.lost());
+  line += result.badRuns() == 0
+              ? (scene ? "none lost, none twice, all sorted, the same picture from every strategy"
+                       : "none lost, none twice, all sorted")
+              : fmt::format("{} runs are bad, {} nodes are lost", result.badRuns(), result.lost());
   if (result.refusedRuns() > 0)
     line += fmt::format("; {} runs refused by their budget", result.refusedRuns());
   if (result.interrupted) line += "; interrupted";
@@ -242,7 +261,7 @@ std::string tableOf(const StressResult& result) {
   } else if (!result.runs.empty()) {
     std::vector<Row> rows = {headOf(result)};
     for (const StressRun& run : result.runs) rows.push_back(rowOf(run));
-    text += aligned(rows, 2) + units;
+    text += aligned(rows, 2) + unitsOf(result);
   }
   text += fmt::format("\n{}\n", verdictOf(result));
   for (const StressRun& run : result.runs)
@@ -251,7 +270,7 @@ std::string tableOf(const StressResult& result) {
 }
 
 image::Table rowsOf(const StressResult& result) {
-  image::Table table{.title = "All runs", .caption = units, .header = headOf(result)};
+  image::Table table{.title = "All runs", .caption = unitsOf(result), .header = headOf(result)};
   for (const StressRun& run : result.runs) {
     if (!run.good()) table.highlighted.push_back(table.rows.size());
     table.rows.push_back(rowOf(run));

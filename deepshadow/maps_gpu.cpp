@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
+#include "scene/light_faces.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/view.h"
@@ -104,12 +105,55 @@ class Builder {
   size_t count(const FaceProjection& face) {
     size_t units = 0;
     drawFace(face, [&](const lists::Window& window) {
-      units += write({face, 0, window}, true, knots_.bytes() / unitBytes).units;
+      units += write({face, 0, window}, SHADOW_ALL, knots_.bytes() / unitBytes).units;
     });
     return units;
   }
 
   size_t cutMarches() const { return cutMarches_; }
+
+  // For comparisons: all faces, one after the other, into linked lists. Returns their nodes.
+  size_t link(std::span<const std::vector<FaceProjection>> facesOfLights, lists::Lists& lists) {
+    struct Face {
+      FaceProjection projection;
+      size_t firstTexel;
+      gl::Texture depth;
+    };
+    std::vector<Face> faces;
+    size_t firstTexel = 0;
+    for (const std::vector<FaceProjection>& ofLight : facesOfLights) {
+      for (const FaceProjection& face : ofLight) {
+        drawOpaque(face);
+        faces.push_back({face, firstTexel, std::move(depth_)});
+        depth_ = gl::Texture();
+        firstTexel += texelsOf(face);
+      }
+    }
+    const auto forEachFace = [&](const auto& use) {
+      for (Face& face : faces) {
+        firstCell_ = face.firstTexel;
+        std::swap(depth_, face.depth);
+        use(face.projection);
+        std::swap(depth_, face.depth);
+      }
+      firstCell_ = 0;
+    };
+    const size_t nodes = lists.buildLinked(device_, inputs_.linkedNodes, [&](const lists::Pass& pass) {
+      forEachFace([&](const FaceProjection& face) {
+        if (inputs_.casters.listed) store(face, {pass.defines, {0, texelsOf(face)}});
+        if (!inputs_.volumes.empty()) linkSmoke(face, pass);
+      });
+    });
+    forEachFace([&](const FaceProjection& face) {
+      useFace(face);
+      depth_.bind(TEXTURE_OPAQUE_DEPTH);
+      lists.heads().bindStorage(STORAGE_LIST_HEADS);
+      texels_.bindStorage(STORAGE_SHADOW_TEXELS);
+      gl::dispatchLinear(device_.program({"deepshadow/linked_texels.comp"}), texelsOf(face));
+    });
+    gl::storageBarrier();
+    return nodes;
+  }
 
  private:
   // Cells of a face whose lists are built.
@@ -118,7 +162,6 @@ class Builder {
     size_t firstTexelOfFace;
     lists::Window cells;
   };
-  static constexpr size_t windowTexels = 1 << 20;
 
   static gl::ShaderDefines writerDefines(const MapInputs& inputs) {
     gl::ShaderDefines defines;
@@ -144,7 +187,9 @@ class Builder {
   }
 
   void useFace(const FaceProjection& face) {
-    viewBlock_.writeValue(faceView(face));
+    shared::ViewParams view = faceView(face);
+    view.size.z = static_cast<int>(firstCell_);
+    viewBlock_.writeValue(view);
     viewBlock_.bindUniform(UNIFORM_VIEW);
   }
 
@@ -188,14 +233,30 @@ class Builder {
     inputs_.casters.listed();
   }
 
+  // The smoke of a face into linked lists.
+  void linkSmoke(const FaceProjection& face, const lists::Pass& pass) {
+    useFace(face);
+    shared::ShadowPassParams params{};
+    params.march.x = static_cast<float>(inputs_.stepVoxels);
+    params.units.x = inputs_.linkedSmokeNodes;
+    passBlock_.writeValue(params);
+    passBlock_.bindUniform(UNIFORM_PASS);
+    depth_.bind(TEXTURE_OPAQUE_DEPTH);
+    inputs_.volumes.bind();
+    gl::dispatchLinear(device_.program({"deepshadow/linked_smoke.comp"},
+                                       gl::joined(inputs_.volumes.defines(), pass.defines)),
+                       texelsOf(face));
+    gl::storageBarrier();
+  }
+
   // The knots of a window, from firstUnit_ on. Texels that find no room in the pool are written again when it
   // has grown, or behind the block that is full. False when it cannot grow.
   bool writeKnots(const FaceWindow& window, LightMap& map) {
     size_t wanted = 1;
-    for (bool all = true; wanted > 0; all = false) {
+    for (int which = SHADOW_ALL; wanted > 0; which = SHADOW_UNPLACED) {
       const size_t room = reserveUnits(wanted);
       if (room == 0) return false;
-      const shared::ShadowCounters counted = write(window, all, room);
+      const shared::ShadowCounters counted = write(window, which, room);
       const size_t written = counted.units - counted.unplaced;
       if (written == 0 && counted.unplaced > 0 && room == unitsOfBlock())
         base::fail(base::ExitCode::Memory,
@@ -211,21 +272,26 @@ class Builder {
     return true;
   }
 
-  // Writes the knots of a window's texels, `all` or those that found no room, into `room` units from
-  // firstUnit_ on.
-  shared::ShadowCounters write(const FaceWindow& window, bool all, size_t room) {
+  // Writes the knots of a window's texels, `which` of them (SHADOW_*), into `room` units from firstUnit_ on.
+  shared::ShadowCounters write(const FaceWindow& window, int which, size_t room) {
     const gl::Profiler::Scope time(device_.profiler(), "knots");
     counters_.clear();
     useFace(window.face);
-    useWindow(window, all);
+    useWindow(window, which);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
     if (inputs_.casters.listed) lists_->bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
     inputs_.volumes.bind();
     knots_.bindStorageRange(STORAGE_SHADOW_KNOTS, firstUnit_ * unitBytes, room * unitBytes);
     counters_.bindStorage(STORAGE_COUNTERS);
-    gl::dispatchLinear(writer_, window.cells.cells);
-    gl::storageBarrier();
-    return counters_.readValue<shared::ShadowCounters>();
+    for (;;) {
+      gl::dispatchLinear(writer_, window.cells.cells);
+      gl::storageBarrier();
+      auto counted = counters_.readValue<shared::ShadowCounters>();
+      if (counted.unfinished == 0) return counted;
+      counted.unfinished = 0;
+      counters_.writeValue(counted);
+      useWindow(window, SHADOW_UNFINISHED);
+    }
   }
 
   size_t unitsOfBlock() const { return static_cast<size_t>(device_.limits().storageBlockBytes) / unitBytes; }
@@ -249,15 +315,15 @@ class Builder {
     return true;
   }
 
-  // The window's texels and what is done with them; `all`, or those that found no room.
-  void useWindow(const FaceWindow& window, bool all) {
+  // The window's texels, and which of them are written.
+  void useWindow(const FaceWindow& window, int which) {
     const size_t firstTexel = window.firstTexelOfFace + window.cells.firstCell;
     const size_t bound = firstTexel / texelAlignment * texelAlignment;
     shared::ShadowPassParams params{};
     params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(error_), 0.f, 0.f};
     params.cells = {static_cast<int>(window.cells.firstCell), static_cast<int>(window.cells.cells), 0,
                     static_cast<int>(firstTexel - bound)};
-    params.units = {static_cast<int>(firstUnit_), all ? 1 : 0, 0, 0};
+    params.units = {static_cast<int>(firstUnit_), which, 0, 0};
     passBlock_.writeValue(params);
     passBlock_.bindUniform(UNIFORM_PASS);
     texels_.bindStorageRange(STORAGE_SHADOW_TEXELS, bound * sizeof(shared::ShadowTexel),
@@ -280,6 +346,7 @@ class Builder {
   size_t listCells_ = 0;
   size_t firstUnit_ = 0;  // of the window that is built
   size_t cutMarches_ = 0;
+  size_t firstCell_ = 0;  // of the face, among the cells of linked lists
 };
 
 // What a texel's knots usually take, or somewhat more: where the maps fit with that, nobody counts. Smooth
@@ -313,17 +380,6 @@ size_t countUnits(gl::Device& device, const MapInputs& inputs, double error,
 
 }  // namespace
 
-std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
-                                    std::span<const glm::dvec3> receivers,
-                                    std::span<const glm::dvec3> castingPoints) {
-  const int side = faceSide(resolution);
-  if (light.type == lights::LightType::Directional)
-    return {directionalFace(light.direction, side, receivers, castingPoints)};
-  if (light.type == lights::LightType::Spot && light.outerCone <= widestCone)
-    return {coneFace(light.position, light.direction, light.outerCone, side)};
-  return cubeFaces(light.position, side);
-}
-
 Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
   const auto readable = static_cast<size_t>(device.limits().textureBufferTexels);
   budgetBytes_ = inputs.budget.bytes != 0 ? inputs.budget.bytes : readable * unitBytes;
@@ -332,6 +388,10 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
     return std::max(bytes / static_cast<double>(budgetBytes_),
                     static_cast<double>(std::max(texels, units)) / static_cast<double>(readable));
   };
+  if (inputs.linkedSmokeNodes > 0) {
+    buildLinked(device, inputs, arrange(inputs));
+    return;
+  }
   for (bool counting = false;;) {
     const size_t texels = arrange(inputs);
     double excess = excessOf(texels, 0);
@@ -374,7 +434,7 @@ size_t Maps::arrange(const MapInputs& inputs) {
     projections_.emplace_back();
     if (!inputs.lights[i].castsShadow || plan_.resolutions[i] == 0) continue;
     projections_.back() =
-        facesOf(inputs.lights[i], plan_.resolutions[i], inputs.receivers, inputs.castingPoints);
+        scene::facesOf(inputs.lights[i], plan_.resolutions[i], inputs.receivers, inputs.castingPoints);
     map.resolution = plan_.resolutions[i];
     map.firstFace = faces;
     map.faces = static_cast<int>(projections_.back().size());
@@ -398,19 +458,33 @@ bool Maps::tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, 
   texels_ = gl::Buffer(device, texelsLabel, texelBytes, gl::Buffer::Whole::Never);
   knots_ =
       gl::Buffer(device, poolLabel, std::min(firstUnits, mostUnits) * unitBytes, gl::Buffer::Whole::Never);
-  std::vector<shared::ShadowFace> faces;
   Builder builder(device, inputs, plan_.error, texels_, knots_, mostUnits);
+  for (size_t i = 0; i < lightMaps_.size(); ++i)
+    if (!projections_[i].empty() && !builder.build(projections_[i], lightMaps_[i])) return false;
+  uploadFaces(device);
+  cutMarches_ = builder.cutMarches();
+  return true;
+}
+
+void Maps::uploadFaces(gl::Device& device) {
+  std::vector<shared::ShadowFace> faces;
   for (size_t i = 0; i < lightMaps_.size(); ++i) {
     size_t firstTexel = lightMaps_[i].firstTexel;
     for (const FaceProjection& face : projections_[i]) {
       faces.push_back(faceData(face, firstTexel));
       firstTexel += texelsOf(face);
     }
-    if (!projections_[i].empty() && !builder.build(projections_[i], lightMaps_[i])) return false;
   }
   faces_ = gl::Buffer(device, "shadow faces", std::span<const shared::ShadowFace>(faces));
-  cutMarches_ = builder.cutMarches();
-  return true;
+}
+
+void Maps::buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels) {
+  texels_ = gl::Buffer(device, texelsLabel, texels * sizeof(shared::ShadowTexel), gl::Buffer::Whole::Never);
+  linked_.emplace(device, "linked shadow lists", texels, sizeof(shared::ShadowNode),
+                  lists::ListOptions{.strategy = lists::Strategy::SpinLock});
+  linkedNodes_ = Builder(device, inputs, plan_.error, texels_, knots_, 0).link(projections_, *linked_);
+  uploadFaces(device);
+  texelsView_ = gl::BufferTexture(device, texels_, gl::BufferFormat::RGB32UI);
 }
 
 size_t Maps::bytes() const {
@@ -446,6 +520,11 @@ ReadMap Maps::read(size_t light) const {
 
 void Maps::bind() const {
   faces_.bindStorage(STORAGE_SHADOW_FACES);
+  if (linked_) {
+    linked_->bindLinked(TEXTURE_SHADOW_TEXELS, TEXTURE_SHADOW_KNOTS, TEXTURE_SHADOW_NODES);
+    texelsView_.bind(TEXTURE_SHADOW_TEXELS);
+    return;
+  }
   texelsView_.bind(TEXTURE_SHADOW_TEXELS);
   knotsView_.bind(TEXTURE_SHADOW_KNOTS);
 }

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,11 +33,6 @@ struct Casters {
   gl::ShaderDefines defines;     // of the programs that they are drawn with
 };
 
-// The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
-std::vector<FaceProjection> facesOf(const lights::Light& light, int resolution,
-                                    std::span<const glm::dvec3> receivers,
-                                    std::span<const glm::dvec3> castingPoints);
-
 struct MapInputs {
   const std::vector<lights::Light>& lights;
   const Casters& casters;
@@ -47,6 +43,10 @@ struct MapInputs {
   MapBudget budget{};
   double stepVoxels = 1.5;  // of the march through smoke
   lists::ListOptions lists{};
+  // For comparisons: lists stay linked, with so many nodes of smoke for each texel (deepshadow/walk.glsl); 0:
+  // runs of knots. Error bound, budgets and the flags of objects do not hold then.
+  int linkedSmokeNodes = 0;
+  size_t linkedNodes = 0;  // that the pool of linked lists has at first
 };
 
 struct LightMap {
@@ -90,17 +90,20 @@ class Maps {
   size_t predictedBytes() const { return predictedBytes_; }           // that were counted; 0: no need
   size_t budgetBytes() const { return budgetBytes_; }
   const std::vector<FaceProjection>& faces(size_t light) const { return projections_[light]; }
-  // Texels whose march through smoke or walk over their list was cut at its bound; 0 unless steps are
-  // absurdly short or a light passes thousands of objects that shadow once.
+  // Texels whose march through smoke was cut at its bound, so that it is coarser than it should be; 0 unless
+  // steps are absurdly short. Lists of surfaces are walked to their end, in several dispatches if need be.
   size_t cutMarches() const { return cutMarches_; }
   // For shaders that include shaders/deepshadow/lookup.glsl.
   void bind() const;
+  size_t linkedNodes() const { return linkedNodes_; }  // of linked lists
   // A light's map, read back.
   ReadMap read(size_t light) const;
 
  private:
   size_t arrange(const MapInputs& inputs);
   bool tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, size_t units);
+  void buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels);
+  void uploadFaces(gl::Device& device);
 
   MapPlan plan_;
   bool lowered_ = false;
@@ -114,6 +117,8 @@ class Maps {
   gl::BufferTexture texelsView_;
   gl::BufferTexture knotsView_;
   size_t cutMarches_ = 0;
+  std::optional<lists::Lists> linked_;
+  size_t linkedNodes_ = 0;
 };
 
 }  // namespace sfumato::deepshadow

@@ -19,6 +19,9 @@ struct FaceProjection {
 // cube, which have half, are whole workgroups.
 int faceSide(int resolution);
 
+// Texels of a face whose lists are built together.
+constexpr size_t windowTexels = size_t{1} << 20;
+
 // Half the angle of the widest cone that one perspective face still takes, radians.
 constexpr double widestCone = 1.0471975511965976;
 

@@ -432,7 +432,7 @@ void makeMultiscatter(const fs::path& folder) {
   json smoke = at({0, 0, 0});
   smoke["scale"] = {1.5, 1.1, 1.5};
   addSmoke(gltf, "plume.vdb", 30, smoke, {0.98f, 0.98f, 0.98f}, 0.4f);
-  addSun(gltf, 4.5f, {-2.2f, 2.4f, -0.6f});
+  addSun(gltf, 4.5f, {-2.4f, 1.9f, 0.35f});
   addSky(gltf, 0.12f);
   gltf.addCamera("camera", 0.6f, lookingAt({0.2f, 1.4f, 5}, {0, 1.25f, 0}));
   gltf.write(folder / "multiscatter.gltf");

@@ -431,6 +431,9 @@ void checkImageName(const fs::path& path) {
 void checkDeepName(const fs::path& path) {
   if (endingOf(path) != Ending::Exr)
     fail(ExitCode::Usage, "{}: is not the name of a deep image: use .exr", path.string());
+  std::error_code ignored;
+  if (fs::is_other(path, ignored))  // its bytes are not written in their order
+    fail(ExitCode::Input, "{}: is a device or a pipe: give a file", path.string());
 }
 
 Picture decodePicture(std::span<const std::byte> bytes, const std::string& name) {

@@ -49,7 +49,7 @@ Layer readLayer(const std::filesystem::path& path, const std::string& name);
 // Throws Usage unless writeImage knows the ending of `path`.
 void checkImageName(const std::filesystem::path& path);
 
-// Throws Usage unless writeDeep knows the ending of `path`.
+// Throws Usage unless writeDeep knows the ending of `path`, Input where it is a device or a pipe.
 void checkDeepName(const std::filesystem::path& path);
 
 // A picture as 8-bit RGBA, rows from the top, as stored (sRGB stays sRGB).

@@ -37,10 +37,6 @@ shared::LightData lightData(const Light& light, const ShadowFaces& shadow, int n
   return data;
 }
 
-int cellsAlong(int pixels) {
-  return (pixels + LightLists::cellSide - 1) / LightLists::cellSide;
-}
-
 }  // namespace
 
 LightLists::Cells LightLists::cellsOf(int width, int height, const glm::ivec4& window) {
@@ -56,7 +52,9 @@ LightLists::Cells LightLists::cellsOf(const LightListInputs& inputs) {
 }
 
 LightLists::LightLists(gl::Device& device, const LightListInputs& inputs, const Cells& cells)
-    : order_(lightOrder(inputs.lights)), lists_(device, "light lists", cells.number(), 0, inputs.lists) {
+    : order_(lightOrder(inputs.lights)),
+      lists_(device, "light lists", cells.number(), 0, inputs.lists),
+      linked_(inputs.linked) {
   if (order_.size() > LIGHT_MOST)
     base::fail(base::ExitCode::Input, "scene: {} lights, and at most {} can be drawn: remove some",
                order_.size(), LIGHT_MOST);
@@ -84,6 +82,13 @@ LightLists::LightLists(gl::Device& device, const LightListInputs& inputs)
 std::optional<LightLists> LightLists::tryBuild(gl::Device& device, const LightListInputs& inputs) {
   const Cells cells = cellsOf(inputs);
   LightLists result(device, inputs, cells);
+  if (inputs.linked) {
+    // As many as there can be, up to some.
+    const size_t pool = std::min(cells.number() * result.proxies(), size_t{1} << 22);
+    result.statistics_.stored = result.lists_.buildLinked(
+        device, pool, [&](const lists::Pass& pass) { result.store(device, inputs, cells, pass); });
+    return result;
+  }
   const auto statistics = result.lists_.tryBuild(
       device, cells.number(), [&](const lists::Pass& pass) { result.store(device, inputs, cells, pass); });
   if (!statistics) return std::nullopt;
@@ -132,7 +137,10 @@ void LightLists::compute(gl::Device& device, const Cells& cells, const gl::Shade
 
 void LightLists::bind() const {
   lights_.bindStorage(STORAGE_LIGHTS);
-  lists_.bind(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, 0);
+  if (linked_)
+    lists_.bindLinked(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, 0);
+  else
+    lists_.bind(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, 0);
 }
 
 }  // namespace sfumato::lights

@@ -13,6 +13,7 @@
 #include "gl/device.h"
 #include "gl/program.h"
 #include "lights/light.h"
+#include "lights/light_cells.h"
 #include "lists/lists_gpu.h"
 
 namespace sfumato::lights {
@@ -41,6 +42,7 @@ struct LightListInputs {
   // seen there can be lit; the first is greater where nothing can. None: everything can.
   const gl::Buffer* receivers = nullptr;
   lists::ListOptions lists{};
+  bool linked = false;                  // for comparisons: see Lists::buildLinked
   std::optional<LightListBuild> build;  // none: what was found the faster one for so many lights
 };
 
@@ -55,7 +57,7 @@ class LightLists {
   };
   static Cells cellsOf(int width, int height, const glm::ivec4& window);
 
-  static constexpr int cellSide = 4;  // pixels; shaders/lights/light_lists.glsl has the same
+  static constexpr int cellSide = lights::cellSide;  // pixels
 
   // Uploads the lights and builds the lists. Costs 8 bytes a cell and 8 a node, more while some strategies
   // build (lists/lists_gpu.h). Throws Memory when they do not fit budget or device, Input when there are more
@@ -86,6 +88,7 @@ class LightLists {
   gl::Buffer lights_;
   gl::Buffer passBlock_;
   lists::Lists lists_;
+  bool linked_ = false;
   lists::ListStatistics statistics_;
 };
 

@@ -8,6 +8,7 @@
 #include "base/size_text.h"
 #include "gl/commands.h"
 #include "lists/driver_verdict.h"
+#include "lists/list_bytes.h"
 #include "lists/sorting_network.h"
 #include "shaders/shared/bindings.h"
 
@@ -23,19 +24,10 @@ using shared::ListWindow;
 
 namespace {
 
-constexpr size_t constantBytes =
-    sizeof(ListCounters) + LIST_TALLIES * sizeof(uint32_t) + sizeof(ListWindow) + sizeof(ListStep);
 constexpr size_t smallestSort = 4;  // nodes; a run of 2 is sorted as one of 4
 
 size_t blocksOf(size_t count) {
   return (count + LIST_SCAN_BLOCK - 1) / LIST_SCAN_BLOCK;
-}
-
-// How many sums each level of the scan over `cells` has, from the lowest to the one that is a single block.
-std::vector<size_t> scanLevels(size_t cells) {
-  std::vector<size_t> levels = {blocksOf(cells)};
-  while (levels.back() > LIST_SCAN_BLOCK) levels.push_back(blocksOf(levels.back()));
-  return levels;
 }
 
 size_t sumOf(const std::vector<size_t>& values) {
@@ -66,7 +58,9 @@ Lists::Lists(gl::Device& device, std::string label, size_t cells, size_t payload
       strategy_(options.strategy),
       counters_(device, label_, sizeof(ListCounters) + LIST_TALLIES * sizeof(uint32_t)),
       window_(device, label_, sizeof(ListWindow)),
-      step_(device, label_, sizeof(ListStep)) {}
+      step_(device, label_, sizeof(ListStep)) {
+  if (options_.observer) options_.observer->allocates(device);
+}
 
 // ---- What it costs
 
@@ -86,21 +80,8 @@ size_t Lists::mostNodes(const gl::Device& device) const {
   return std::min(readable, std::max(nodesInOneBank(device), banked)) - 1;  // a linked pool reserves one
 }
 
-size_t Lists::cellBytes(size_t cells) const {
-  // Half of them may be listed for the sort.
-  const size_t perCell = sizeof(ListRun) + sizeof(uint32_t) / 2 + (linked() ? 2 * sizeof(uint32_t) : 0);
-  return cells * perCell + sumOf(scanLevels(cells)) * sizeof(uint32_t);
-}
-
-size_t Lists::nodeBytes() const {
-  return sizeof(ListKey) + payloadBytes_ + (linked() ? sizeof(ListLink) + payloadBytes_ : 0);
-}
-
 size_t Lists::bytesFor(size_t cells, size_t nodes) const {
-  const size_t sorted = nodes / (LIST_SHORT_RUN_IN_BANKS + 1);
-  const size_t reserved = linked() ? sizeof(ListLink) + payloadBytes_ : 0;
-  return constantBytes + cellBytes(cells) + nodes * nodeBytes() + reserved + sorted * sizeof(uint32_t) +
-         smallestBuffers;
+  return bytesOfLists(strategy_, cells, nodes, payloadBytes_);
 }
 
 size_t Lists::nodesAllowed(const gl::Device& device, size_t cells) const {
@@ -110,7 +91,8 @@ size_t Lists::nodesAllowed(const gl::Device& device, size_t cells) const {
   if (fixed >= options_.budgetBytes) return 0;
   // With a cell number for every so many nodes.
   const size_t parts = LIST_SHORT_RUN_IN_BANKS + 1;
-  return std::min(most, (options_.budgetBytes - fixed) * parts / (nodeBytes() * parts + sizeof(uint32_t)));
+  return std::min(most, (options_.budgetBytes - fixed) * parts /
+                            (bytesOfNode(strategy_, payloadBytes_) * parts + sizeof(uint32_t)));
 }
 
 size_t Lists::allocatedBytes() const {
@@ -266,13 +248,18 @@ size_t Lists::predict(gl::Device& device, size_t cells, const Draw& draw) {
 // first when `count` says so.
 size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, bool wholly, bool count,
                           ListStatistics& statistics) {
+  const bool tooManyCells = window.cells > 1 && limited() && bytesFor(window.cells, 0) > options_.budgetBytes;
+  if (tooManyCells && options_.onOverflow == OnOverflow::Window) {
+    fitting_ = mostCells();  // whatever they hold
+    return 0;
+  }
   reserveCells(device, window.cells);
   Counted counted;
   if (count) {
     counted = countNodes(device, window, draw);
     ++statistics.builds;
     const size_t allowed = nodesAllowed(device, reservedCells_);
-    if (counted.counters.total > allowed) {
+    if (counted.counters.total > allowed || tooManyCells) {
       unmetNodes_ = counted.counters.total;
       window.cells = cellsHolding(window.cells, allowed);
       fitting_ = window.cells;
@@ -284,6 +271,7 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
     statistics.predictedBytes = bytesFor(reservedCells_, statistics.predicted);
     reserveNodes(device, statistics.predicted);
   }
+  if (options_.observer) options_.observer->allocates(device);
   bool sorted = false;
   const Stored stored =
       linked() ? link(device, window, draw, counted, sorted) : scatter(device, window, draw);
@@ -317,6 +305,7 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
   statistics.capacity = capacity_;
   statistics.nodeBytes = sizeof(ListKey) + payloadBytes_;
   statistics.bytes = allocatedBytes();
+  if (options_.observer) options_.observer->built(device, *this, window, draw);
   return window.cells;
 }
 
@@ -387,6 +376,46 @@ Lists::Stored Lists::link(gl::Device& device, const Window& window, const Draw& 
   } while (unfinished());
   sorted = counters_.readValue<ListCounters>().unsorted == 0;
   return Stored::All;
+}
+
+size_t Lists::buildLinked(gl::Device& device, size_t nodes, const Draw& draw) {
+  const Profiler::Scope time(device.profiler(), "link");
+  base::check(strategy_ == Strategy::SpinLock && payloadBytes_ % 8 == 0, "linked lists are read as they are");
+  const size_t headBytes = cells_ * 2 * sizeof(uint32_t);
+  if (heads_.bytes() == 0) {
+    heads_ = gl::Buffer(device, label_, headBytes);
+    headsView_ = gl::BufferTexture(device, heads_, gl::BufferFormat::R32UI);
+    runs_ = gl::Buffer(device, label_, sizeof(ListRun));
+  }
+  for (capacity_ = std::max(nodes, capacity_);;) {
+    if (capacity_ > mostNodes(device)) failOverBudget(device, cells_);
+    if (links_.bytes() < (capacity_ + 1) * sizeof(ListLink)) {
+      links_ = gl::Buffer(device, label_, (capacity_ + 1) * sizeof(ListLink), gl::Buffer::Whole::Never);
+      linksView_ = gl::BufferTexture(device, links_, gl::BufferFormat::RGB32UI);
+      linkedPayloads_ = gl::Buffer(device, label_, (capacity_ + 1) * payloadBytes_, gl::Buffer::Whole::Never);
+      linkedPayloadsView_ = gl::BufferTexture(device, linkedPayloads_, gl::BufferFormat::RG32UI);
+    }
+    counters_.clear();
+    heads_.clear();
+    useWindow({0, cells_});
+    heads_.bindStorage(STORAGE_LIST_HEADS);
+    bindNodes(device, STORAGE_LIST_NODES, links_, sizeof(ListLink));
+    if (payloadBytes_ > 0) bindNodes(device, STORAGE_LIST_PAYLOADS, linkedPayloads_, payloadBytes_);
+    gl::ShaderDefines defines = bankDefines(device);
+    defines.emplace_back("LIST_PASS", std::to_string(static_cast<int>(strategy_)));
+    draw({defines, {0, cells_}});
+    gl::storageBarrier();
+    const auto counters = counters_.readValue<ListCounters>();
+    base::check(counters.overflowed == 0, "no insertion was given up");
+    if (counters.demand <= capacity_) return counters.demand;
+    capacity_ = unmetNodes_ = counters.demand;
+  }
+}
+
+void Lists::bindLinked(unsigned heads, unsigned links, unsigned payloads) const {
+  headsView_.bind(heads);
+  linksView_.bind(links);
+  if (payloadBytes_ > 0) linkedPayloadsView_.bind(payloads);
 }
 
 // Whether the last dispatch left work; the next one starts to count anew.
@@ -496,11 +525,7 @@ ListStatistics Lists::build(gl::Device& device, const Draw& draw) {
 ListStatistics Lists::buildWindows(gl::Device& device, const Draw& draw,
                                    const std::function<void(const Window&)>& consume, size_t mostCells) {
   const bool wholly = options_.onOverflow == OnOverflow::Error;
-  if (limited() && !wholly) {
-    // No more than half of the budget for what every cell takes.
-    const size_t perCell = cellBytes(LIST_SCAN_BLOCK) / LIST_SCAN_BLOCK + 1;
-    mostCells = std::clamp<size_t>(options_.budgetBytes / (2 * perCell), 1, mostCells);
-  }
+  if (limited() && !wholly) mostCells = std::min(mostCells, this->mostCells());
   ListStatistics all;
   size_t tried = mostCells;
   for (size_t first = 0; first < cells_;) {
@@ -529,6 +554,12 @@ size_t Lists::cellsToTry(const gl::Device& device, size_t built, size_t stored) 
                          static_cast<double>(nodesAllowed(device, reservedCells_)) /
                          static_cast<double>(std::max<size_t>(stored, 1));
   return static_cast<size_t>(std::min(1.25 * fitting, 1e15)) + 1;
+}
+
+// Of a window: no more than half of the budget for what every cell takes.
+size_t Lists::mostCells() const {
+  const size_t perCell = bytesOfCells(strategy_, LIST_SCAN_BLOCK) / LIST_SCAN_BLOCK + 1;
+  return std::max<size_t>(options_.budgetBytes / (2 * perCell), 1);
 }
 
 // Whether a count pass comes before the nodes are stored: always for `count`; for linked lists when the size

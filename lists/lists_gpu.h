@@ -35,6 +35,18 @@ struct Pass {
 // Stores the same nodes whenever it is called, in any order; nodes of one cell and depth differ in their id.
 using Draw = std::function<void(const Pass&)>;
 
+class Lists;
+
+// Watches containers from outside (ListOptions::observer).
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  // Before and after a container takes memory.
+  virtual void allocates(gl::Device& device) = 0;
+  // The runs of a window's cells are there, with the nodes that `draw` stores in them.
+  virtual void built(gl::Device& device, const Lists& lists, const Window& window, const Draw& draw) = 0;
+};
+
 class Lists {
  public:
   // Empty lists of up to `cells` cells. `payloadBytes` a node, a multiple of 4, may be 0. Costs 8 bytes a
@@ -56,11 +68,22 @@ class Lists {
                               const std::function<void(const Window&)>& consume,
                               size_t mostCells = std::numeric_limits<size_t>::max());
 
+  // For comparisons: the linked lists of all cells as spin locks sorted them, and no runs. The pool holds
+  // `nodes`; where that is too few, what they are is known after one build, and they are built again. Costs 8
+  // bytes a cell and 12 + payloadBytes a node. Returns the nodes. Throws Memory when the device holds fewer.
+  size_t buildLinked(gl::Device& device, size_t nodes, const Draw& draw);
+  // For shaders, at these texture units: heads (R32UI), links (ListLink, RGB32UI), payloads (pairs of words).
+  void bindLinked(unsigned heads, unsigned links, unsigned payloads) const;
+  const gl::Buffer& heads() const { return heads_; }
+
   // Nodes that `draw` will store in the first `cells`, by a count pass: nothing is stored.
   size_t predict(gl::Device& device, size_t cells, const Draw& draw);
 
   // For shaders that include shaders/lists/runs.glsl, at these texture units.
   void bind(unsigned runs, unsigned keys, unsigned payloads) const;
+
+  const std::string& label() const { return label_; }
+  size_t payloadBytes() const { return payloadBytes_; }
 
   // Read back, for checks on the CPU.
   std::vector<shared::ListRun> readRuns() const;  // of the cells that were built last
@@ -84,15 +107,12 @@ class Lists {
   };
   enum class RunOffset { BeforeItsNodes, BehindItsNodes };
   enum class Stored { All, PoolTooSmall, NotAll };
-  static constexpr size_t smallestBuffers = 11 * 16;  // a buffer has at least 16 bytes
 
   size_t payloadWords() const { return payloadBytes_ / 4; }
   bool linked() const { return strategy_ != Strategy::Count; }
   size_t bankBytes(const gl::Device& device) const;
   size_t nodesInOneBank(const gl::Device& device) const;
   size_t mostNodes(const gl::Device& device) const;  // that all banks hold
-  size_t cellBytes(size_t cells) const;              // of everything that grows with the cells
-  size_t nodeBytes() const;                          // likewise with the nodes, while they are built
   size_t bytesFor(size_t cells, size_t nodes) const;
   size_t nodesAllowed(const gl::Device& device, size_t cells) const;  // by budget and device
   size_t allocatedBytes() const;
@@ -111,6 +131,7 @@ class Lists {
   Counted countNodes(gl::Device& device, const Window& window, const Draw& draw);
   Counted scan(gl::Device& device, size_t cells, RunOffset offset);
   size_t cellsHolding(size_t cells, size_t nodes) const;  // of the first cells, by their scanned counts
+  size_t mostCells() const;
   size_t cellsToTry(const gl::Device& device, size_t built, size_t stored) const;
   bool countsFirst() const;
   bool limited() const;
@@ -154,6 +175,7 @@ class Lists {
   gl::BufferTexture payloadsView_;
   gl::BufferTexture linksView_;
   gl::BufferTexture linkedPayloadsView_;
+  gl::BufferTexture headsView_;  // of buildLinked alone
 };
 
 // The strategy for a device, which has not been found unsafe there (lists/driver_verdict.h): see

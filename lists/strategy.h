@@ -25,6 +25,8 @@ enum class OnOverflow {
   Error,   // an error that says how much is needed
 };
 
+class Observer;  // lists/lists_gpu.h
+
 struct ListOptions {
   Strategy strategy = Strategy::Count;
   // Of everything that one list container holds at its peak; 0: what the device allows.
@@ -32,6 +34,8 @@ struct ListOptions {
   OnOverflow onOverflow = OnOverflow::Window;
   // Pools are split over banks of at most this size; 0: the device's limit of one storage block.
   size_t bankBytes = 0;
+  // Is told of everything that is built, for tests; none: nullptr. Must outlive the lists.
+  Observer* observer = nullptr;
 };
 
 const std::vector<std::string>& strategyNames();    // "spinlock", "lockfree", "append", "count"

@@ -218,10 +218,11 @@ class Sampler {
     const double length = nodes_[last].depth - nodes_[first].depth;
     const double start = meanOf(from.throughput);
     const double ratio = meanOf(to.throughput) / start;
+    const double logRatio = std::log(ratio);
     for (size_t i = first + 1; i < last; ++i) {
       const State& exact = nodes_[i].before;
       const double fraction = (nodes_[i].depth - nodes_[first].depth) / length;
-      const double partRatio = std::pow(ratio, fraction);
+      const double partRatio = std::exp(fraction * logRatio);
       const double added = partAdded(fraction, ratio, partRatio);
       if (std::abs(start * partRatio - meanOf(exact.throughput)) > error_) return false;
       const dvec3 off = from.radiance + added * (to.radiance - from.radiance) - exact.radiance;

@@ -154,14 +154,16 @@ void readLookups(const gl::Buffer& lookups, const Split& split, size_t rayCount,
                  Lookups& all) {
   const size_t pixels = inputs.window.pixels();
   const size_t further = inputs.gbuffer.samplePositions.size() - 1;
-  const auto ofRays = lookups.readValues<glm::uvec2>(rayCount);
+  const auto ofRays = lookups.readValues<glm::uvec4>(rayCount);
   const auto groups = split.groups.readValues<uint32_t>(pixels);
   for (size_t pixel = 0; pixel < pixels; ++pixel) {
-    glm::u64vec2 sum = ofRays[pixel];
+    glm::u64vec4 sum = ofRays[pixel];
     if (groups[pixel] != 0)
       for (size_t i = 0; i < further; ++i) sum += ofRays[pixels + (groups[pixel] - 1) * further + i];
     all.lights += sum.x;
     all.shadows += sum.y;
+    all.steps += sum.z;
+    all.jumpedSteps += sum.w;
     all.mostLights = std::max<size_t>(all.mostLights, sum.x);
     all.mostShadows = std::max<size_t>(all.mostShadows, sum.y);
   }
@@ -178,6 +180,38 @@ size_t mostPixels(const gl::Device& device) {
   return static_cast<size_t>(device.limits().storageBlockBytes) / bytes;
 }
 
+// Smoke that was marched for each block of 2 x 2 pixels of the window, where that was wanted.
+struct SmokeBlocks {
+  gl::Buffer states;
+  gl::BufferTexture texture;
+};
+
+SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, const gl::ShaderDefines& defines) {
+  const gl::Program& program = device.program({"pipelines/smoke_blocks.comp"}, defines);
+  const size_t count = static_cast<size_t>((inputs.window.width + 1) / 2) *
+                       static_cast<size_t>((inputs.window.height + 1) / 2);
+  SmokeBlocks blocks;
+  blocks.states = gl::Buffer(device, "smoke blocks", count * sizeof(shared::RayState));
+  blocks.texture = gl::BufferTexture(device, blocks.states, gl::BufferFormat::RGBA32F);
+  gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
+  gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
+  shared::ResolveParams params = resolveParams(inputs);
+  params.options.w = static_cast<int>(count);
+  passBlock.writeValue(params);
+  counters.clear();
+  bindRayInputs(inputs);
+  passBlock.bindUniform(UNIFORM_PASS);
+  blocks.states.bindStorage(STORAGE_RAYS);
+  inputs.split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
+  counters.bindStorage(STORAGE_COUNTERS);
+  inputs.lights.bind();
+  inputs.shadows.bind();
+  inputs.volumes.bind();
+  gl::dispatchLinear(program, count);
+  gl::storageBarrier();
+  return blocks;
+}
+
 // Lights the window's pixels into the frame; false when their rays do not fit one buffer.
 bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const Split& split = inputs.split;
@@ -186,13 +220,19 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   if (rayCount > mostRays(device)) return false;
   gl::ShaderDefines defines =
       resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
+  SmokeBlocks blocks;
+  if (inputs.quality.halfResolutionSmoke && !inputs.volumes.empty() && !frame.deep) {
+    blocks = marchBlocks(device, inputs, defines);
+    defines.emplace_back("SMOKE_BLOCKS", "1");
+  }
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (inputs.quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
   if (frame.deep) defines.emplace_back("DEEP", "1");
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
-  gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec2) : 0);
+  gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec4) : 0);
 
   const auto walk = [&](size_t count) {
     shared::ResolveParams params = resolveParams(inputs);
@@ -212,6 +252,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
       inputs.lights.bind();
       inputs.shadows.bind();
       inputs.volumes.bind();
+      blocks.texture.bind(TEXTURE_SMOKE_BLOCKS);
       gl::dispatchLinear(program, count);
       gl::storageBarrier();
       counted = counters.readValue<shared::ResolveCounters>();
@@ -313,7 +354,8 @@ class TilePainter {
                                        inputs_.height,
                                        window.corners(),
                                        receivers ? &*receivers : nullptr,
-                                       remaining(surfaces->statistics.bytes)};
+                                       remaining(surfaces->statistics.bytes),
+                                       inputs_.quality.walkedSmokeNodes > 0};
       return smallest ? std::optional(lights::LightLists(device_, of))
                       : lights::LightLists::tryBuild(device_, of);
     }();
@@ -422,6 +464,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
                                  .bytes = shadows.bytes(),
                                  .predictedBytes = shadows.predictedBytes(),
                                  .budgetBytes = shadows.budgetBytes()};
+  if (shadows.linkedNodes() > 0) linkedNodes_ = shadows.linkedNodes();
   frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = geometry_.triangles();
   return frame;
@@ -458,7 +501,9 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                   .lowerResolution = !quality.exactShadowResolution,
                   .loosenError = !quality.exactShadowError},
        .stepVoxels = quality.stepVoxels,
-       .lists = quality.lists});
+       .lists = quality.lists,
+       .linkedSmokeNodes = quality.walkedSmokeNodes,
+       .linkedNodes = linkedNodes_});
 }
 
 }  // namespace sfumato::pipelines

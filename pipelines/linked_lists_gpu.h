@@ -35,6 +35,8 @@ struct Lookups {
   size_t shadows = 0;
   size_t mostLights = 0;  // of one pixel
   size_t mostShadows = 0;
+  size_t steps = 0;        // of marches through smoke that asked for its density, in all pixels
+  size_t jumpedSteps = 0;  // that did not, because nothing is there
 };
 
 struct ShadowFigures {
@@ -103,6 +105,7 @@ class LinkedListsPipeline {
   std::vector<glm::dmat4> mediaBoxes_;  // world from unit cube
   GeometryGpu geometry_;
   volumes::VolumesGpu volumes_;
+  size_t linkedNodes_ = 0;  // of the last frame, where lists stay linked: how large the next pool is
 };
 
 }  // namespace sfumato::pipelines

@@ -24,13 +24,18 @@ struct Quality {
   // where they would not fit; the same of the error.
   bool exactShadowResolution = true;
   bool exactShadowError = true;
-  size_t shadowMemory = 0;         // bytes of all maps together; 0: what the device reads
-  double throughputCutoff = 1e-3;  // a ray ends where less than this of what is behind would be seen
+  size_t shadowMemory = 0;           // bytes of all maps together; 0: what the device reads
+  bool halfResolutionSmoke = false;  // marched once for 2 x 2 pixels where these see about as far
+  double throughputCutoff = 1e-3;    // a ray ends where less than this of what is behind would be seen
   ShadowFilter surfaceShadows = ShadowFilter::Bilinear;
   ShadowFilter smokeShadows = ShadowFilter::Nearest;
   // Octaves of multiple scattering beside single scattering, 0 to maxScatteringOctaves: see
   // shaders/pipelines/multiple_scattering.glsl. No named quality has any.
   int scatteringOctaves = 0;
+  // For comparisons only, no named quality has it: light and shadow lists as Lindbeck 2015 has them, linked
+  // under spin locks and walked from their heads by every lookup, with so many nodes of smoke for each texel.
+  // 0: runs.
+  int walkedSmokeNodes = 0;
   // How all lists are built. The budget is for those that are there at one time: of a window of a light's
   // shadow map, or of the lights and surfaces of a window of the image.
   lists::ListOptions lists{};

@@ -37,12 +37,34 @@ void storeSurfaces(gl::Device& device, const SurfaceListInputs& inputs, const li
   inputs.geometry.draw(Layer::Translucent, true);
 }
 
+// Nodes that nobody can see, which are never stored.
+size_t hiddenNodes(gl::Device& device, const SurfaceListInputs& inputs, const lists::Lists& lists) {
+  const auto samples = std::to_string(inputs.gbuffer.samplePositions.size());
+  const gl::Program& program = device.program({"pipelines/hidden_surfaces.comp"}, {{"SAMPLES", samples}});
+  gl::Buffer hidden(device, "hidden surfaces", sizeof(uint32_t));
+  hidden.clear();
+  inputs.view.bindUniform(UNIFORM_VIEW);
+  lists.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
+  inputs.gbuffer.depth.bind(TEXTURE_OPAQUE_DEPTH);
+  hidden.bindStorage(STORAGE_COUNTERS);
+  gl::dispatchLinear(program, windowOf(inputs).pixels());
+  gl::storageBarrier();
+  return hidden.readValue<uint32_t>();
+}
+
+void setStatistics(gl::Device& device, const SurfaceListInputs& inputs,
+                   const lists::ListStatistics& statistics, SurfaceLists& result) {
+  result.statistics = statistics;
+  if (statistics.stored > 0) result.statistics.hidden = hiddenNodes(device, inputs, result.lists);
+}
+
 }  // namespace
 
 SurfaceLists buildSurfaceLists(gl::Device& device, const SurfaceListInputs& inputs) {
   SurfaceLists result = emptyLists(device, inputs);
-  result.statistics =
+  const auto statistics =
       result.lists.build(device, [&](const lists::Pass& pass) { storeSurfaces(device, inputs, pass); });
+  setStatistics(device, inputs, statistics, result);
   return result;
 }
 
@@ -52,7 +74,7 @@ std::optional<SurfaceLists> tryBuildSurfaceLists(gl::Device& device, const Surfa
       result.lists.tryBuild(device, windowOf(inputs).pixels(),
                             [&](const lists::Pass& pass) { storeSurfaces(device, inputs, pass); });
   if (!statistics) return std::nullopt;
-  result.statistics = *statistics;
+  setStatistics(device, inputs, *statistics, result);
   return result;
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "scene/clipping.h"
+
 namespace sfumato::scene {
 
 using glm::dmat4;
@@ -11,23 +13,6 @@ using glm::dvec3;
 using glm::dvec4;
 
 namespace {
-
-using Polygon = std::vector<dvec3>;
-
-// The part of a polygon on the side of a plane where dot(plane, (p, 1)) >= 0 (Sutherland and Hodgman 1974).
-Polygon clip(const Polygon& polygon, const dvec4& plane) {
-  const auto height = [&](const dvec3& p) { return glm::dot(plane, dvec4(p, 1.0)); };
-  Polygon kept;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const dvec3& a = polygon[i];
-    const dvec3& b = polygon[(i + 1) % polygon.size()];
-    const double ha = height(a);
-    const double hb = height(b);
-    if (ha >= 0) kept.push_back(a);
-    if ((ha >= 0) != (hb >= 0)) kept.push_back(a + (b - a) * (ha / (ha - hb)));
-  }
-  return kept;
-}
 
 // Planes of the frustum in world space, their positive sides inside.
 std::vector<dvec4> frustumPlanes(const Camera& camera, double aspect) {
@@ -72,10 +57,7 @@ std::array<dvec3, 8> corners(const dmat4& worldFromUnit) {
 }
 
 void appendClipped(Polygon polygon, const std::vector<dvec4>& planes, std::vector<dvec3>& points) {
-  for (const dvec4& plane : planes) {
-    if (polygon.empty()) return;
-    polygon = clip(polygon, plane);
-  }
+  polygon = clipped(std::move(polygon), planes);
   points.insert(points.end(), polygon.begin(), polygon.end());
 }
 
@@ -126,31 +108,37 @@ std::vector<dvec3> visiblePoints(const Scene& scene, const std::vector<dmat4>& w
   return points;
 }
 
+std::vector<dmat4> boundingBoxes(const Scene& scene) {
+  struct Box {
+    dvec3 low{infinity};
+    dvec3 high{-infinity};
+  };
+  std::vector<Box> ofMeshes(scene.meshes.size());
+  for (size_t i = 0; i < ofMeshes.size(); ++i) {
+    for (const Vertex& vertex : scene.meshes[i].vertices) {
+      ofMeshes[i].low = glm::min(ofMeshes[i].low, dvec3(vertex.position));
+      ofMeshes[i].high = glm::max(ofMeshes[i].high, dvec3(vertex.position));
+    }
+  }
+  std::vector<dmat4> boxes;
+  for (const Instance& instance : scene.instances) {
+    const Box& box = ofMeshes[static_cast<size_t>(instance.mesh)];
+    if (box.low.x > box.high.x) continue;
+    dmat4 objectFromUnit(1.0);
+    for (int axis = 0; axis < 3; ++axis) objectFromUnit[axis][axis] = box.high[axis] - box.low[axis];
+    objectFromUnit[3] = dvec4(box.low, 1.0);
+    boxes.push_back(instance.worldFromObject * objectFromUnit);
+  }
+  return boxes;
+}
+
 std::vector<dvec3> boundingPoints(const Scene& scene, const std::vector<dmat4>& worldFromUnit) {
   std::vector<dvec3> points;
   const auto append = [&](const dmat4& box) {
     const auto corner = corners(box);
     points.insert(points.end(), corner.begin(), corner.end());
   };
-  struct Box {
-    dvec3 low{infinity};
-    dvec3 high{-infinity};
-  };
-  std::vector<Box> boxes(scene.meshes.size());
-  for (size_t i = 0; i < boxes.size(); ++i) {
-    for (const Vertex& vertex : scene.meshes[i].vertices) {
-      boxes[i].low = glm::min(boxes[i].low, dvec3(vertex.position));
-      boxes[i].high = glm::max(boxes[i].high, dvec3(vertex.position));
-    }
-  }
-  for (const Instance& instance : scene.instances) {
-    const Box& box = boxes[static_cast<size_t>(instance.mesh)];
-    if (box.low.x > box.high.x) continue;
-    dmat4 objectFromUnit(1.0);
-    for (int axis = 0; axis < 3; ++axis) objectFromUnit[axis][axis] = box.high[axis] - box.low[axis];
-    objectFromUnit[3] = dvec4(box.low, 1.0);
-    append(instance.worldFromObject * objectFromUnit);
-  }
+  for (const dmat4& box : boundingBoxes(scene)) append(box);
   for (const dmat4& box : worldFromUnit) append(box);
   return points;
 }

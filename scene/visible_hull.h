@@ -17,7 +17,10 @@ std::vector<std::vector<glm::dvec3>> visibleParts(const std::vector<glm::dmat4>&
 std::vector<glm::dvec3> visiblePoints(const Scene& scene, const std::vector<glm::dmat4>& worldFromUnit,
                                       const Camera& camera, double aspect);
 
-// Corners of the boxes around every mesh instance, and of the unit boxes.
+// Boxes around every mesh instance, as images of the unit cube; flat where the mesh is.
+std::vector<glm::dmat4> boundingBoxes(const Scene& scene);
+
+// Their corners, and of the unit boxes.
 std::vector<glm::dvec3> boundingPoints(const Scene& scene, const std::vector<glm::dmat4>& worldFromUnit);
 
 }  // namespace sfumato::scene

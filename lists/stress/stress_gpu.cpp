@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/parallel.h"
 #include "gl/buffer.h"
 #include "gl/commands.h"
+#include "lists/stress/guards_gpu.h"
+#include "lists/stress/lookups_gpu.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/stress.h"
 
@@ -16,31 +17,12 @@ namespace {
 
 using gl::Profiler;
 
-// Memory of a known content, beside that of the lists.
-class Guard {
- public:
-  explicit Guard(gl::Device& device)
-      : words_(4096, 0xc0ffee11u), buffer_(device, "stress guard", std::span<const uint32_t>(words_)) {}
-  size_t changedWords() const {
-    const auto now = buffer_.readValues<uint32_t>(words_.size());
-    size_t changed = 0;
-    for (size_t i = 0; i < now.size(); ++i) changed += now[i] != words_[i] ? 1 : 0;
-    return changed;
-  }
-
- private:
-  std::vector<uint32_t> words_;
-  gl::Buffer buffer_;
-};
-
-class Measurement {
+class Measurement : public Observer {
  public:
   Measurement(gl::Device& device, const Load& load, const ListOptions& options)
       : device_(device),
         load_(load),
-        before_(device),
-        lists_(device, "stress", load.cells(), load.payloadWords * sizeof(uint32_t), options),
-        after_(device),
+        lists_(device, "stress", load.cells(), load.payloadWords * sizeof(uint32_t), observed(options)),
         params_(device, "stress params", sizeof(shared::StressParams)),
         verification_(load) {
     if (options.budgetBytes != 0 && options.onOverflow == OnOverflow::Window) indexNodes();
@@ -59,18 +41,26 @@ class Measurement {
     measured.statistics.p99Spins = std::min(measured.statistics.p99Spins, measured.statistics.maxSpins);
     measured.findings = verification_.findings();
     measured.findings.rebuilt = static_cast<size_t>(measured.statistics.distrusted);
-    measured.findings.overwritten = before_.changedWords() + after_.changedWords();
+    measured.findings.overwritten = guards_.changedWords();
     measured.statistics.demand = load_.nodes();  // whatever the shaders made of it
     describeFault(measured.findings);
     measured.lookups = load_.cells() * lookupsPerCell;
     measured.buildSeconds = seconds("stress draw");
-    measured.lookupSeconds = seconds("stress lookup");
+    measured.lookupSeconds = seconds("lookup");
     measured.resolveSeconds =
         seconds("stress lists") - measured.buildSeconds - measured.lookupSeconds - seconds("stress check");
     return measured;
   }
 
+  void allocates(gl::Device& device) override { guards_.add(device); }
+  void built(gl::Device&, const Lists&, const Window&, const Draw&) override {}
+
  private:
+  ListOptions observed(ListOptions options) {
+    options.observer = this;
+    return options;
+  }
+
   // Of what is no fault of one cell.
   void describeFault(Findings& findings) const {
     if (!findings.fault.empty()) return;
@@ -133,25 +123,8 @@ class Measurement {
     gl::dispatchLinear(program, dispatched.nodes);
   }
 
-  // The sum of each cell's lookups.
-  std::vector<uint32_t> lookUp(const Window& window) {
-    gl::Buffer sums(device_, "stress lookups", window.cells * sizeof(uint32_t));
-    useParams(window, {});
-    const gl::Program& program =
-        device_.program({"lists/stress/lookup.comp"}, {{"LOOKUPS", std::to_string(lookupsPerCell) + "u"}});
-    {
-      const Profiler::Scope time(device_.profiler(), "stress lookup");
-      lists_.bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
-      sums.bindStorage(STORAGE_COUNTERS);
-      gl::dispatchLinear(program, window.cells);
-      gl::storageBarrier();
-    }
-    const Profiler::Scope time(device_.profiler(), "stress check");
-    return sums.readValues<uint32_t>(window.cells);
-  }
-
   void consume(const Window& window) {
-    const std::vector<uint32_t> sums = lookUp(window);
+    const std::vector<uint32_t> sums = lookUp(device_, lists_, window, 1.f, "stress check");
     const Profiler::Scope time(device_.profiler(), "stress check");
     const std::vector<shared::ListRun> runs = lists_.readRuns();
     const std::vector<shared::ListKey> keys = lists_.readKeys();
@@ -168,7 +141,7 @@ class Measurement {
       for (uint32_t k = 0; k < run.count; ++k) {
         const shared::ListKey& key = keys[run.first + k];
         nodes[k] = {key.depth, key.id};
-        sum += lookupsFrom(key.depth);
+        sum += lookupsThatFind(key.depth, 1.f);
       }
       verification_.addCell(cell, nodes,
                             std::span(payloads).subspan(size_t{run.first} * load_.payloadWords,
@@ -177,18 +150,10 @@ class Measurement {
     });
   }
 
-  // Lookups of a cell that find a node of this depth before them: those at k / 64 >= depth, k = 1 ... 64.
-  static uint32_t lookupsFrom(float depth) {
-    const double first =
-        std::clamp(std::ceil(static_cast<double>(depth) * lookupsPerCell), 1.0, lookupsPerCell + 1.0);
-    return lookupsPerCell + 1 - static_cast<uint32_t>(first);
-  }
-
   gl::Device& device_;
   const Load load_;
-  Guard before_;
+  Guards guards_;
   Lists lists_;
-  Guard after_;
   gl::Buffer params_;
   gl::Buffer numbers_;  // NumbersByBlock, where windows need them
   std::vector<size_t> firsts_;

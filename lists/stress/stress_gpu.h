@@ -5,12 +5,10 @@
 #include "lists/lists_gpu.h"
 #include "lists/strategy.h"
 #include "lists/stress/load.h"
+#include "lists/stress/lookups_gpu.h"
 #include "lists/stress/verification.h"
 
 namespace sfumato::lists::stress {
-
-// Lookups of each cell: how many nodes stand before a depth, at depths that only grow.
-constexpr uint32_t lookupsPerCell = 64;
 
 struct Measured {
   ListStatistics statistics;
@@ -23,7 +21,7 @@ struct Measured {
 };
 
 // Enables the device's profiler, and resets it. Every cell is read back and checked node by node, its lookups
-// against those nodes; the buffers allocated before and after the container must be as they were
+// against those nodes; the buffers allocated before and after the container's must be as they were
 // (Findings::overwritten). Throws Memory as Lists does.
 Measured measure(gl::Device& device, const Load& load, const ListOptions& options);
 

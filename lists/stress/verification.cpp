@@ -18,6 +18,7 @@ Findings& Findings::operator+=(const Findings& other) {
   different += other.different;
   rebuilt += other.rebuilt;
   overwritten += other.overwritten;
+  hidden += other.hidden;
   if (fault.empty()) fault = other.fault;
   return *this;
 }

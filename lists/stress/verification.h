@@ -29,11 +29,12 @@ struct Findings {
   size_t different = 0;    // pixels of a scene that are others than with the first strategy
   size_t rebuilt = 0;      // times that the strategy lost nodes, and another one built the lists instead
   size_t overwritten = 0;  // words of memory beside the lists that changed
+  size_t hidden = 0;       // nodes of a scene that lie behind opaque surfaces
   std::string fault;       // of the first cell that has one, in words; or empty
 
   // Everything with which something is wrong, but for the nodes that are lost.
   size_t faults() const {
-    return twice + foreign + unsorted + torn + broken + misread + different + rebuilt + overwritten;
+    return twice + foreign + unsorted + torn + broken + misread + different + rebuilt + overwritten + hidden;
   }
   bool good() const { return lost == 0 && faults() == 0; }
   // Those of another build of the same load as well.

@@ -62,6 +62,7 @@ Result shaders(const Context& context) {
     variants.push_back({{"SAMPLES", "4"},
                         {"TEXTURES", "1"},
                         {"SMOKE", "1"},
+                        {"SMOKE_BLOCKS", "1"},
                         {"VOLUME_COUNT", "2"},
                         {"GRID_COUNT", "2"},
                         {"GRID_BRICKS", "2"},

@@ -3,6 +3,7 @@
 // knots are counted, then taken from the pool, then written; a texel that finds no room waits for the next dispatch.
 // Smoke comes in order of depth by itself: it needs no list. Its knots are kept while they are counted; what is more
 // than a few is marched again.
+// A texel of very many surfaces keeps its state in its last knots, and goes on in the next dispatch.
 // VOLUME_COUNT is defined when there are media, SURFACES when there are lists; SHADOW_ONCE_OBJECTS and
 // SHADOW_NOT_SELF_OBJECTS when some of their surfaces shadow in these ways.
 #include "shaders/shared/bindings.h"
@@ -26,7 +27,7 @@ layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
 layout(std430, binding = STORAGE_SHADOW_TEXELS) buffer Texels {
   ShadowTexel texels[];
 };
-layout(std430, binding = STORAGE_SHADOW_KNOTS) writeonly buffer Knots {
+layout(std430, binding = STORAGE_SHADOW_KNOTS) buffer Knots {
   vec2 halves[];  // of the pool's units
 };
 layout(std430, binding = STORAGE_COUNTERS) coherent buffer Counting {
@@ -34,11 +35,14 @@ layout(std430, binding = STORAGE_COUNTERS) coherent buffer Counting {
 };
 
 const uint NO_ROOM = 0xffffffffu;  // a count
-// Surfaces looked at, so that all loops together stay below the drivers' limit.
+const uint UNFINISHED = 0xfffffffeu;  // likewise
+// Surfaces looked at in one dispatch, so that all loops together stay below the drivers' limit.
+#ifndef WALK_LIMIT
 #ifdef SHADOW_NOT_SELF_OBJECTS
-const uint WALK_LIMIT = 15000u;
+#define WALK_LIMIT 15000u
 #else
-const uint WALK_LIMIT = 30000u;
+#define WALK_LIMIT 30000u
+#endif
 #endif
 const float NOWHERE = 3e38;
 
@@ -52,22 +56,49 @@ uint firstUnit = 0u;
 uint ownStep = 0u;         // unit of the next one
 vec3 surfaceTau = vec3(0.0);
 uint hidden = 0u;
+bool stopped = false;      // the rest is for the next dispatch
+uint searched = 0u;        // of the surfaces before the next one, for one of its object
+uint smokeWritten = 0u;    // knots of the smoke
+uint smokeSkipped = 0u;    // that were written by former dispatches
 
-// What a surface takes; nothing where a former one of the same object shadows once.
+// What a surface takes; nothing where a former one of the same object shadows once. Stops when it takes another
+// dispatch to find that out.
 ShadowNode surfaceNode(uint number) {
   uvec2 words = listPayloadPair(run.first + number);
 #ifdef SHADOW_ONCE_OBJECTS
   uint object = words.y >> 16;
   if ((object & uint(SHADOW_ONCE)) != 0u) {
     bool shadowed = false;
-    for (uint i = 0u; i < number && !shadowed && walked < WALK_LIMIT; ++i) {
-      shadowed = listPayloadPair(run.first + i).y >> 16 == object;
+    while (searched < number && !shadowed && walked < WALK_LIMIT) {
+      shadowed = listPayloadPair(run.first + searched).y >> 16 == object;
+      ++searched;
       ++walked;
     }
     if (shadowed) words = uvec2(0u);
+    else stopped = searched < number;
   }
 #endif
   return ShadowNode(words.x, words.y);
+}
+
+// What goes on in the next dispatch; the last two knots are free for it, as a surface is still to come.
+void keepState(uint lastUnit) {
+  uint half_ = 2u * lastUnit - 2u;
+  halves[half_] = uintBitsToFloat(uvec2(surface, place));
+  halves[half_ + 1u] = uintBitsToFloat(uvec2(ownStep, smokeWritten));
+  halves[half_ + 2u] = vec2(uintBitsToFloat(searched), surfaceTau.r);
+  halves[half_ + 3u] = surfaceTau.gb;
+}
+
+void takeState(uint lastUnit) {
+  uint half_ = 2u * lastUnit - 2u;
+  surface = floatBitsToUint(halves[half_].x);
+  place = floatBitsToUint(halves[half_].y);
+  ownStep = floatBitsToUint(halves[half_ + 1u].x);
+  smokeWritten = floatBitsToUint(halves[half_ + 1u].y);
+  searched = floatBitsToUint(halves[half_ + 2u].x);
+  surfaceTau = vec3(halves[half_ + 2u].y, halves[half_ + 3u]);
+  smokeSkipped = smokeWritten;
 }
 
 uint objectOf(ShadowNode node) {
@@ -101,9 +132,10 @@ void writeKnot(float depth, vec3 tau) {
 // Knots of the surfaces up to a depth, between the smoke's knot that was written last and its next one.
 void writeSurfaces(SmokeKnot before, SmokeKnot next, float opaque) {
 #ifdef SURFACES
-  while (surface < run.count && walked < WALK_LIMIT && listDepth(run.first + surface) <= next.depth) {
+  while (surface < run.count && !stopped && listDepth(run.first + surface) <= next.depth) {
     float at = listDepth(run.first + surface);
     ShadowNode node = surfaceNode(surface);
+    if (stopped) continue;
     vec3 drop = vec3(unpackHalf2x16(node.tauRg), unpackHalf2x16(node.tauBObject).x);
     float along = clamp((at - before.depth) / max(next.depth - before.depth, 1e-30), 0.0, 1.0);
     vec3 smokeTau = vec3(mix(before.tau, next.tau, along));
@@ -121,15 +153,30 @@ void writeSurfaces(SmokeKnot before, SmokeKnot next, float opaque) {
     if (at > opaque) ++hidden;
     ++surface;
     ++walked;
+    searched = 0u;
+    stopped = walked >= WALK_LIMIT && surface < run.count;
   }
 #endif
 }
 
 // A knot of the smoke, after the surfaces before it.
 void writeSmokeKnot(inout SmokeKnot before, SmokeKnot smoke, float opaque) {
-  writeSurfaces(before, smoke, opaque);
+#ifdef SURFACES
+  if (smokeSkipped != 0u) {
+    --smokeSkipped;
+    before = smoke;
+  } else {
+    writeSurfaces(before, smoke, opaque);
+    if (!stopped) {
+      writeKnot(smoke.depth, surfaceTau + smoke.tau);
+      before = smoke;
+      ++smokeWritten;
+    }
+  }
+#else
   writeKnot(smoke.depth, surfaceTau + smoke.tau);
   before = smoke;
+#endif
 }
 
 #ifdef VOLUME_COUNT
@@ -161,7 +208,8 @@ void main() {
   if (linearId() >= uint(params.cells.y)) return;
   uint cell = uint(params.cells.x) + linearId();
   uint number = uint(params.cells.w) + linearId();
-  if (params.units.y == 0 && texels[number].count != NO_ROOM) return;
+  bool continuing = params.units.y == SHADOW_UNFINISHED;
+  if (params.units.y != SHADOW_ALL && texels[number].count != (continuing ? UNFINISHED : NO_ROOM)) return;
   ivec2 texel = ivec2(int(cell) % view.size.x, int(cell) / view.size.x);
   float opaque = texelFetch(opaqueDepth, texel, 0).r;
 
@@ -185,11 +233,10 @@ void main() {
   run = listRun(uint(params.cells.z) + linearId());
   count += 2u * run.count;
 #ifdef SHADOW_NOT_SELF_OBJECTS
-  for (uint i = 0u; i < run.count && walked < WALK_LIMIT; ++i) {
-    if ((objectOf(surfaceNode(i)) & uint(SHADOW_NOT_SELF)) != 0u) ++ownSteps;
-    ++walked;
-  }
-  walked = 0u;
+  // At most; of very many surfaces each could be one.
+  for (uint i = 0u; i < min(run.count, WALK_LIMIT); ++i)
+    if ((listPayloadPair(run.first + i).y >> 16 & uint(SHADOW_NOT_SELF)) != 0u) ++ownSteps;
+  if (run.count > WALK_LIMIT) ownSteps = run.count;
   if (ownSteps != 0u) ++ownSteps;  // their end
 #endif
   grey = ownSteps == 0u && surfacesAreGrey();
@@ -199,7 +246,8 @@ void main() {
 #endif
 
   uint all = (grey ? (count + 1u) / 2u : count) + ownSteps;
-  uint first = all != 0u ? atomicAdd(counters.units, all) : 0u;
+  uint first = continuing ? texels[number].first - uint(params.units.x) : 0u;
+  if (all != 0u && !continuing) first = atomicAdd(counters.units, all);
   if (all != 0u && first + all > uint(halves.length()) / 2u) {
     atomicAdd(counters.unplaced, all);
     texels[number].count = NO_ROOM;
@@ -212,6 +260,7 @@ void main() {
 #ifdef SURFACES
   firstUnit = first;
   ownStep = first + count;
+  if (continuing) takeState(first + count - 1u);
 #endif
   SmokeKnot before = SmokeKnot(0.0, Extinction(0.0));
 #ifdef VOLUME_COUNT
@@ -230,12 +279,16 @@ void main() {
   if (grey && (count & 1u) != 0u) writeKnot(NOTHING_OPAQUE, surfaceTau + before.tau);
 #ifdef SURFACES
 #ifdef SHADOW_NOT_SELF_OBJECTS
-  if (ownSteps != 0u) {
+  if (ownSteps != 0u && !stopped) {
     halves[2u * ownStep] = vec2(0.0);
     halves[2u * ownStep + 1u] = vec2(0.0);
   }
 #endif
-  if (walked >= WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
+  if (stopped) {
+    keepState(first + count - 1u);
+    texels[number].count = UNFINISHED;
+    atomicAdd(counters.unfinished, 1u);
+  }
   if (hidden != 0u) atomicAdd(counters.hidden, hidden);
 #endif
 }

@@ -7,7 +7,9 @@ layout(std430, binding = STORAGE_SHADOW_FACES) readonly buffer Faces {
 };
 // As buffer textures, because all maps together may be larger than one storage block.
 layout(binding = TEXTURE_SHADOW_TEXELS) uniform usamplerBuffer shadowTexels;  // ShadowTexel
+#ifndef WALK_LISTS
 layout(binding = TEXTURE_SHADOW_KNOTS) uniform samplerBuffer shadowKnots;     // units: see ShadowTexel
+#endif
 
 ShadowTexel shadowTexel(uint number) {
   uvec3 words = texelFetch(shadowTexels, int(number)).xyz;
@@ -17,6 +19,10 @@ ShadowTexel shadowTexel(uint number) {
 uint knotCount(ShadowTexel texel) {
   return texel.count & SHADOW_KNOTS;
 }
+
+#ifdef WALK_LISTS
+#include "shaders/deepshadow/walk.glsl"
+#else
 
 // Optical depth from the light to `depth` in a texel that has knots: the last unit that begins at or before it is found
 // by bisection; tau is linear from the last knot there to the next one.
@@ -41,6 +47,8 @@ vec3 opticalDepthAt(ShadowTexel texel, float depth) {
   }
   return mix(before.yzw, after.yzw, (depth - before.x) / (after.x - before.x));
 }
+
+#endif
 
 // Through what lets light pass, opaque surfaces aside; `ownTau` is taken out.
 vec3 runTransmittance(ShadowTexel texel, float depth, vec3 ownTau) {

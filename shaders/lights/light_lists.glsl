@@ -1,4 +1,5 @@
-// The light lists, for readers: which lights reach a depth in a pixel.
+// The light lists, for readers: which lights reach a depth in a pixel. WALK_LISTS is defined when they are linked lists,
+// for comparisons.
 #include "shaders/lights/light.glsl"
 #include "shaders/shared/lists.h"
 
@@ -17,6 +18,9 @@ uint lightCell(ivec2 pixel, ivec4 window) {
 
 ListRun lightRun(uint cell) {
   uvec2 run = texelFetch(lightCellRuns, int(cell)).xy;
+#ifdef WALK_LISTS
+  run.y = 0x3fffffffu;  // its end is seen when one gets there
+#endif
   return ListRun(run.x, run.y);
 }
 
@@ -28,6 +32,19 @@ struct ListedLight {
 };
 
 ListedLight listedLight(uint node) {
+#ifdef WALK_LISTS
+  if (node == 0u) return ListedLight(0u, 3e38, -3e38);
+#endif
   uvec2 key = texelFetch(lightCellKeys, int(node)).xy;
   return ListedLight(key.y >> LIGHT_NUMBER_SHIFT, uintBitsToFloat(key.x), uintBitsToFloat(key.y << LIGHT_NUMBER_SHIFT));
 }
+
+#ifdef WALK_LISTS
+uint lightNode = 0u;
+
+// Light i of a list, asked for one after the other from 0 on.
+ListedLight walkedLight(ListRun run, uint i) {
+  lightNode = i == 0u ? run.first : texelFetch(lightCellKeys, int(lightNode)).z;
+  return listedLight(lightNode);
+}
+#endif

@@ -36,6 +36,24 @@ void listStore(uint cell, float depth, uint id LIST_PAYLOAD_ARGUMENT) {
   if (listWants(cell)) atomicAdd(listRuns[cell - uint(listWindow.range.x)].count, 1u);
 }
 
+#elif LIST_PASS == LIST_PASS_LOG
+
+layout(std430, binding = STORAGE_LIST_NODES) writeonly buffer ListLog {
+  ListLogEntry listLog[];
+};
+
+// What an audit holds finished lists against: the window's nodes as they come, in no list.
+void listStore(uint cell, float depth, uint id LIST_PAYLOAD_ARGUMENT) {
+  uint place = cell - uint(listWindow.range.x);
+  if (place < uint(listWindow.range.y)) {
+    uint entry = atomicAdd(listCounters.demand, 1u);
+    if (entry < uint(listWindow.range.z)) {
+      listLog[entry] = ListLogEntry(place, depth, id);
+      LIST_STORE_PAYLOAD(entry);
+    }
+  }
+}
+
 #elif LIST_PASS == LIST_PASS_SCATTER
 
 layout(std430, binding = STORAGE_LIST_NODES) writeonly buffer ListKeys {

@@ -27,6 +27,20 @@ struct PixelRay {
   ListRun lights;  // of its cell
 };
 
+// Through a place of the image plane, for a square of `pixels` pixels a side; without its lights.
+PixelRay pixelRay(vec2 plane, float pixels) {
+  bool orthographic = view.halfExtent.z != 0.0;
+  PixelRay ray;
+  ray.origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
+  ray.perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
+  ray.towardsViewer = -normalize(ray.perDepth);
+  ray.metresPerDepth = length(ray.perDepth);
+  float width = 2.0 * view.halfExtent.y / float(view.size.y) * pixels;
+  ray.width = orthographic ? vec2(width, 0.0) : vec2(0.0, width);
+  ray.lights = ListRun(0u, 0u);
+  return ray;
+}
+
 #ifdef COUNT_LOOKUPS
 uvec2 lookups = uvec2(0u);  // of this invocation; x: lights asked, y: shadows
 #define COUNT_LOOKUP(of) ++lookups.of
@@ -45,5 +59,8 @@ uint lightsOf(PixelRay ray) {
 ListedLight lightOf(PixelRay ray, uint i) {
   COUNT_LOOKUP(x);
   uint directional = uint(params.options.z);
+#ifdef WALK_LISTS
+  if (i >= directional) return walkedLight(ray.lights, i - directional);
+#endif
   return i < directional ? ListedLight(i, -3e38, 3e38) : listedLight(ray.lights.first + i - directional);
 }

@@ -2,7 +2,7 @@
 // the opaque depth, and lights both through light lists and deep shadow maps. A ray that has done much work keeps
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
-// objects that do not shadow themselves. DEEP is defined when what each ray meets is recorded for a deep image; then the
+// objects that do not shadow themselves. SMOKE_BLOCKS is defined when blocks of pixels were marched before. DEEP is defined when what each ray meets is recorded for a deep image; then the
 // rays are those of a list.
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/deep_events.glsl"
@@ -10,7 +10,10 @@
 #include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/linear_id.glsl"
 #ifdef SMOKE
-#include "shaders/pipelines/smoke_lighting.glsl"
+#include "shaders/pipelines/smoke_steps.glsl"
+#endif
+#ifdef SMOKE_BLOCKS
+#include "shaders/pipelines/smoke_blocks.glsl"
 #endif
 
 layout(std430, binding = STORAGE_RAYS) buffer Rays {
@@ -25,7 +28,7 @@ layout(binding = TEXTURE_SURFACE_1) uniform pixelUsampler opaqueSurface1;
 
 #ifdef COUNT_LOOKUPS
 layout(std430, binding = STORAGE_LOOKUPS) buffer RayLookups {
-  uvec2 rayLookups[];
+  uvec4 rayLookups[];  // x: lights asked, y: shadows, z: steps in smoke looked at, w: jumped over
 };
 #endif
 
@@ -79,18 +82,17 @@ void main() {
   }
   float rayEnd = min(opaque, view.depthRange.y);
 
-  bool orthographic = view.halfExtent.z != 0.0;
-  PixelRay ray;
-  ray.origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
-  ray.perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
-  ray.towardsViewer = -normalize(ray.perDepth);
-  ray.metresPerDepth = length(ray.perDepth);
-  float width = 2.0 * view.halfExtent.y / float(view.size.y) * (place.split ? 0.5 : 1.0);
-  ray.width = orthographic ? vec2(width, 0.0) : vec2(0.0, width);
+  PixelRay ray = pixelRay(plane, place.split ? 0.5 : 1.0);
   ray.lights = lightRun(lightCell(place.pixel, view.window));
 
 #ifdef SMOKE
   MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
+#endif
+
+#ifdef SMOKE_BLOCKS
+  bool smoky = media.rangeOfAll.x < media.rangeOfAll.y;
+  if (first && smoky && !place.split && surfaces.count == 0u && takeBlocks(place.pixel, media, radiance, throughput))
+    depth = media.rangeOfAll.y;
 #endif
 
   bool walking = true;
@@ -105,36 +107,9 @@ void main() {
     }
     bool atSurface = true;
 #ifdef SMOKE
-    // Collect the next steps that hold smoke; empty ones cost no more than their density.
-    Steps steps;
-    steps.count = 0;
-    steps.emitted = vec3(0.0);
     float limit = min(nextSurface, media.rangeOfAll.y);
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
-    while (depth < limit && steps.count < STEPS && work < uint(RESOLVE_WORK_LIMIT)) {
-      ++work;
-      float to = stepEnd(media, depth, limit);
-      float middle = 0.5 * (depth + to);
-      float scattered[VOLUME_COUNT];
-      Extinction sigmaT = Extinction(0.0);
-      for (int v = 0; v < VOLUME_COUNT; ++v) {
-        scattered[v] = extinctionOf(v, media, middle);
-        sigmaT += inChannels(v, scattered[v]);
-      }
-      vec3 emitted = emission(media, middle);
-      if (maxComponent(sigmaT) > 0.0 || maxComponent(emitted) > 0.0) {
-        float stepLength = (to - depth) * ray.metresPerDepth;
-        Extinction tau = sigmaT * stepLength;
-        vec3 seen = throughput * seenLength(tau, stepLength);
-        appendStep(steps, middle, to - depth, scattered, seen);
-        steps.emitted += seen * emitted;
-        throughput *= exp(-tau);
-        if (maxComponent(throughput) < params.march.y) limit = to;
-      } else {
-        to = emptyEnd(media, depth, to, limit);
-      }
-      depth = to;
-    }
+    Steps steps = nextSteps(media, ray.metresPerDepth, limit, depth, throughput);
     if (steps.count > 0) {
       vec3 added = scattered(steps, ray);
       radiance += added;
@@ -170,7 +145,12 @@ void main() {
   }
   if (walking) atomicAdd(counters.unfinished, 1u);
 #ifdef COUNT_LOOKUPS
-  rayLookups[number] = first ? lookups : rayLookups[number] + lookups;
+#ifdef SMOKE
+  uvec4 counted = uvec4(lookups, marched, jumped);
+#else
+  uvec4 counted = uvec4(lookups, 0u, 0u);
+#endif
+  rayLookups[number] = first ? counted : rayLookups[number] + counted;
 #endif
   rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
                           throughput.b, passed);

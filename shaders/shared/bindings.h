@@ -53,6 +53,8 @@
 #define TEXTURE_LIST_LINKED_PAYLOADS 14
 #define TEXTURE_LIGHT_CELL_RUNS 15  // the light lists, likewise
 #define TEXTURE_LIGHT_CELL_KEYS 16
+#define TEXTURE_SHADOW_NODES 17  // of linked shadow lists, for comparisons
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_BRICK_MAP 18
-#define TEXTURE_GRIDS 19  // and the units after it
+#define TEXTURE_SMOKE_BLOCKS 19  // RayState of each block of pixels
+#define TEXTURE_GRIDS 20  // and the units after it

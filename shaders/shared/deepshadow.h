@@ -39,17 +39,23 @@ struct ShadowPassParams {
   vec4 march;         // x: step of the march through smoke, voxels; y: bound of the error of the transmittance
   ivec4 cells;  // of the face, that knots are written of: x: the first, y: how many, z, w: place of the first in the
                 // runs and in the texels
-  ivec4 units;  // x: number of the pool's first that is written; y: 1 for all cells, 0 for those that found no room
+  ivec4 units;  // x: number of the pool's first that is written; y: SHADOW_*: which cells
 };
 
 struct ShadowCounters {
   uint units;       // of the pool: demand, counted past the capacity
   uint unplaced;    // of it, what found no room
-  uint boundHit;    // texels whose march or walk was longer than its bound
+  uint unfinished;  // texels that go on in the next dispatch
+  uint boundHit;    // texels whose march was longer than its bound
   uint hidden;      // surfaces in lists that are behind the opaque depth
 };
 
 SHARED_END
+
+// Cells whose knots are written.
+#define SHADOW_UNPLACED 0  // those that found no room
+#define SHADOW_ALL 1
+#define SHADOW_UNFINISHED 2  // those that have more surfaces than one dispatch takes
 
 #define SHADOW_OPAQUE_TAU 100.0
 #define SHADOW_DARK_TAU 50.0  // what takes more than this is as good as opaque
@@ -57,3 +63,6 @@ SHARED_END
 #define SHADOW_OWN_STEPS 0x80000000u  // its own steps follow; never of a grey texel
 #define SHADOW_GREY 0x40000000u
 #define SHADOW_KNOTS 0x3fffffffu  // the mask of their count
+
+// Linked lists, for comparisons: ids of smoke's nodes, whose words are the end of a stretch and what it takes, as floats.
+#define SHADOW_SMOKE_IDS 0xffffff00u

@@ -23,6 +23,13 @@ struct ListLink {
   uint next;  // node, 0: the end
 };
 
+// A node as an audit notes it down, before any list has it.
+struct ListLogEntry {
+  uint cell;  // from the window's first
+  float depth;
+  uint id;
+};
+
 struct ListCounters {
   uint demand;      // nodes asked of a linked pool, counted past its capacity
   uint overflowed;  // nodes that a bounded loop sent to the cell's overflow list
@@ -54,6 +61,7 @@ SHARED_END
 #define LIST_PASS_APPEND 2
 #define LIST_PASS_SCATTER 3
 #define LIST_PASS_COUNT 4
+#define LIST_PASS_LOG 5
 
 // A head that stands for "somebody is changing this list".
 #define LIST_LOCKED 0xffffffffu

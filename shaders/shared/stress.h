@@ -6,6 +6,7 @@ SHARED_BEGIN
 struct StressParams {
   ivec4 load;    // x, y: the grid of cells; z: seed; w: distribution
   ivec4 window;  // x: first cell that is built; y: cells; z: nodes that are dispatched; w: first of STORAGE_STRESS_NUMBERS
+  vec4 lookups;  // x: depth of the last one
 };
 
 SHARED_END

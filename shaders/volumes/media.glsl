@@ -64,6 +64,10 @@ float stepEnd(MediaRay ray, float depth, float limit) {
   return to > depth ? min(to, limit) : limit;  // a stride below the rounding of the depth
 }
 
+#ifdef COUNT_LOOKUPS
+uint jumped = 0u;  // steps of this invocation that emptyEnd spared
+#endif
+
 // Of the step that begins at `depth` and ends at `to`, nothing was found in its middle: where the last step ends of which
 // the bricks say the same. Ends are those of stepEnd.
 float emptyEnd(MediaRay ray, float depth, float to, float limit) {
@@ -81,7 +85,11 @@ float emptyEnd(MediaRay ray, float depth, float to, float limit) {
     }
   }
   float entry = ray.rangeOfAll.x;
-  return max(to, min(entry + floor((until - entry) / stride + 0.5) * stride, limit));
+  float end = max(to, min(entry + floor((until - entry) / stride + 0.5) * stride, limit));
+#ifdef COUNT_LOOKUPS
+  jumped += uint(ceil((end - to) / stride - 0.5));
+#endif
+  return end;
 }
 
 // A bound of the steps of a march through all of the ray.

@@ -1,8 +1,11 @@
 // --deep and --deep-shadow as a user meets them: what is refused, what is written, and what oiiotool makes of
 // it.
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <set>
 
@@ -33,8 +36,8 @@ GltfBuilder emptyScene() {
   gltf.add("nodes", {{"camera", 0}, {"translation", {0, 0, 5}}});
   gltf.light({{"type", "directional"}, {"intensity", 3}, {"name", "sun"}})["rotation"] = {-0.70710678, 0, 0,
                                                                                           0.70710678};
-  gltf.light({{"type", "point"}, {"intensity", 0.001}, {"range", 0.5}, {"name", "lamp"}})["translation"] = {
-      3, 3, 3};
+  gltf.light({{"type", "point"}, {"intensity", 0.001}, {"range", 2}, {"name", "lamp"}})["translation"] = {
+      1.2, 0.5, 0.5};
   return gltf;
 }
 
@@ -114,6 +117,7 @@ class DeepFilesRender : public DeepFiles {
 };
 
 TEST_F(DeepFiles, RefusesWhatCannotBe) {
+  ASSERT_EQ(mkfifo(path("pipe.exr").c_str(), 0600), 0);
   const auto call = [&](const Arguments& arguments, int exitCode, const std::string& says) {
     return BadCall{draft(arguments), exitCode, says};
   };
@@ -125,6 +129,7 @@ TEST_F(DeepFiles, RefusesWhatCannotBe) {
           call({"wall.gltf", "--deep", "a.exr", "-o", "a.exr"}, 2, "a.exr: is named twice"),
           call({"wall.gltf", "--deep", "a.exr", "--deep-shadow", "sun", "./a.exr"}, 2, "is named twice"),
           call({"wall.gltf", "--deep", "missing/a.exr"}, 3, "missing/a.exr: cannot be written"),
+          call({"wall.gltf", "--deep", "pipe.exr"}, 3, "pipe.exr: is a device or a pipe"),
           call({"wall.gltf", "--deep", "a.exr", "--reference"}, 2, "--reference has no lists"),
           call({"wall.gltf", "--deep-shadow", "sun", "a.exr", "--reference"}, 2, "--reference has no lists"),
           call({"wall.gltf", "--deep-shadow", "moon", "a.exr"}, 2,
@@ -147,6 +152,25 @@ TEST_F(DeepFilesRender, ADeepImageAloneIsEnough) {
   const image::Image flat = image::readImage(path("deep.exr"));
   EXPECT_NEAR(flat.pixel(32, 24)[0], 0.3, 2e-4);
   EXPECT_NEAR(flat.pixel(32, 24)[2], 0.1, 1e-4);
+}
+
+// Where the disk is full, also where only its last bytes find no room.
+TEST_F(DeepFilesRender, AFullDiskLeavesNoFile) {
+  render({"wall.gltf", "--deep", "deep.exr", "--quality", "draft"});
+  const auto bytes = static_cast<rlim_t>(std::filesystem::file_size(path("deep.exr")));
+  std::filesystem::remove(path("deep.exr"));
+  const auto before = listing(folder.path());
+  for (const rlim_t room : {rlim_t{100}, bytes / 2, bytes - 1}) {
+    const auto fillDisk = [&] {
+      std::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{room, room};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    };
+    expectError(runProgram(folder.path(), draft({"wall.gltf", "--deep", "deep.exr", "--quality", "draft"}),
+                           {.inChild = fillDisk}),
+                3, "deep.exr: cannot be written");
+    EXPECT_EQ(listing(folder.path()), before) << room;
+  }
 }
 
 // The rounding of halves, of the picture and of the deep image.

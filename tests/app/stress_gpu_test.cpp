@@ -138,20 +138,24 @@ TEST_F(Stress, SeesNodesThatTheContainerDrops) {
 
   // Without a word: the node is not even counted.
   const std::string uncounted = "bool listWants(uint cell) {";
-  for (const Json& one : runBroken(
-           "lists/insert.glsl", replaced(insert, uncounted, uncounted + "\n  if (cell == 17u) return false;"),
-           {"--distribution", "uniform"})["runs"]) {
+  const Json unseen = runBroken("lists/insert.glsl",
+                                replaced(insert, uncounted, uncounted + "\n  if (cell == 17u) return false;"),
+                                {"--distribution", "uniform"});
+  ASSERT_EQ(unseen["runs"].size(), 4u);
+  for (const Json& one : unseen["runs"]) {
     EXPECT_EQ(one["lost"], 6) << one;
     EXPECT_EQ(one["rebuilt"], 0) << one;
   }
   // The container finds out, and builds with another strategy; that is a fault of the first one.
-  for (const Json& one : runBroken("lists/insert.glsl", replaced(insert, unlinked, unlinkedNow))["runs"]) {
+  const Json noticed = runBroken("lists/insert.glsl", replaced(insert, unlinked, unlinkedNow));
+  for (const Json& one : noticed["runs"]) {
     EXPECT_EQ(one["lost"], 0) << one;
     EXPECT_EQ(one["rebuilt"], one["strategy"] == "count" ? 0 : 1) << one;
   }
   // No strategy is left.
   const std::string broken = replaced(replaced(insert, unlinked, unlinkedNow), unscattered, unscatteredNow);
-  for (const Json& one : runBroken("lists/insert.glsl", broken)["runs"]) {
+  const Json hopeless = runBroken("lists/insert.glsl", broken);
+  for (const Json& one : hopeless["runs"]) {
     EXPECT_GT(one["lost"], 0) << one;
     EXPECT_NE(one["fault"].get<std::string>().find("every strategy loses nodes"), std::string::npos) << one;
   }
@@ -277,12 +281,17 @@ TEST_F(Stress, EndsWithTheReportSoFarWhenInterrupted) {
 
 // ---- real scenes -----------------------------------------------------------------------------------------
 
-// Two panes of tinted glass in front of each other, seen by a camera, and a light.
-std::string panes() {
+// Two panes of tinted glass in front of each other, seen by a camera, and a light. A wall may stand between
+// them.
+std::string panes(bool wall = false) {
   GltfBuilder gltf;
   for (const float z : {0.f, -0.5f}) {
     const int positions = gltf.accessor<float>("VEC3", {-1, -1, z, 1, -1, z, 0, 1, z});
     gltf.meshNode({{"attributes", {{"POSITION", positions}}}, {"material", 0}});
+  }
+  if (wall) {
+    const int positions = gltf.accessor<float>("VEC3", {-1, -1, -0.3, 1, -1, -0.3, 0, 1, -0.3});
+    gltf.meshNode({{"attributes", {{"POSITION", positions}}}});
   }
   gltf.add("materials", {{"alphaMode", "BLEND"},
                          {"doubleSided", true},
@@ -326,6 +335,94 @@ TEST_F(Stress, BuildsTheListsOfAScene) {
   ASSERT_EQ(lightNodes.size(), 3u);
   EXPECT_EQ(lightNodes.begin()->first, 2);  // the scene's own, and one
   EXPECT_LT(lightNodes.at(2), lightNodes.at(5));
+}
+
+TEST_F(Stress, ShowsTheListsOfASceneAsThoseOfALoad) {
+  folder.write("panes.gltf", panes());
+  const Arguments arguments = {"stress", "panes.gltf",   "--lists", "count",  "--res",    "64x48",
+                               "-q",     "--shadow-res", "32",      "--json", "--report", "page"};
+  const Outcome outcome = runProgram(folder.path(), arguments);
+  EXPECT_EQ(outcome.exitCode, 0) << outcome.err << outcome.out;
+  const Json result = Json::parse(outcome.out);
+  for (const Json& one : result["runs"]) {
+    size_t cells = 0;
+    for (const Json& lengths : one["lengths"]) cells += lengths["cells"].get<size_t>();
+    EXPECT_EQ(cells, one["cells"]) << one;
+    EXPECT_GT(one["lookups_per_second"], 0) << one;
+    // Of the shapes alone; lights are predicted where nothing is seen, too.
+    const auto predicted = one["nodes_from_bounds"].get<double>(), stored = one["stored"].get<double>();
+    EXPECT_GE(predicted, 0.95 * stored - 4) << one;
+    EXPECT_LE(predicted, (one["lists"] == "lights" ? 3 : 1.05) * stored + 4) << one;
+    EXPECT_GT(one["bytes_from_bounds"], one["nodes_from_bounds"]) << one;
+  }
+  const std::string page = contentOf(folder.path() / "page/index.html");
+  for (const char* part : {"Heat map of list lengths: surfaces", "Heat map of list lengths: lights",
+                           "Heat map of list lengths: shadows", "List lengths", "Lookups"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+// Each fault of a shader that builds a scene's lists is found, in each of them.
+TEST_F(Stress, SeesWhatIsWrongWithTheListsOfAScene) {
+  folder.write("panes.gltf", panes());
+  struct Fault {
+    std::string file, from, to, kind;
+  };
+  const std::string insert = "lists/insert.glsl";
+  for (const Fault& fault : std::vector<Fault>{
+           {insert, "bool listWants(uint cell) {",
+            "bool listWants(uint cell) {\n  if (cell % 13u == 9u) return false;", "lost"},
+           {insert, "    uvec2 key = listKey(depth, id);\n    uint node = atomicAdd(",
+            "    uvec2 key = listKey(depth * 0.5, id);\n    uint node = atomicAdd(", "foreign"},
+           {insert, "    uvec2 key = listKey(depth, id);\n    uint node = atomicAdd(",
+            "    uvec2 key = listKey(depth, id & ~7u);\n    uint node = atomicAdd(", "foreign"},
+           {"lists/sort.comp", "void main() {", "void main() {\n  if (true) return;", "unsorted"},
+           {"lists/stress/lookup.comp", "<= depth) {", "< depth * 0.9) {", "misread"}}) {
+    SCOPED_TRACE(fault.to);
+    fs::remove_all(folder.path() / "broken");
+    fs::create_directories((folder.path() / "broken" / fault.file).parent_path());
+    folder.write("broken/" + fault.file, replaced(shader(fault.file), fault.from, fault.to));
+    const Outcome outcome = runProgram(
+        folder.path(), {"stress", "panes.gltf", "--lists", "count", "--res", "64x48", "-q", "--shadow-res",
+                        "32", "--json", "--lights", "8..8", "--shader-dir", "broken"});
+    EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+    const Json result = Json::parse(outcome.out);
+    ASSERT_EQ(result["runs"].size(), 3u);
+    for (const Json& one : result["runs"]) {
+      EXPECT_GT(one[fault.kind], 0) << one;
+      EXPECT_NE(one["fault"], "") << one;
+    }
+  }
+}
+
+// A wall stands between the panes: what it hides is stored nowhere, unless a shader is broken.
+TEST_F(Stress, SeesSurfacesThatAreStoredBehindAWall) {
+  folder.write("walled.gltf", panes(true));
+  const auto hidden = [&](const std::string& lists, const Arguments& more) {
+    Arguments arguments = {"stress", "walled.gltf", "--lists",      "count", "--res",
+                           "64x48",  "-q",          "--shadow-res", "32",    "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = runProgram(folder.path(), arguments);
+    size_t nodes = 0;
+    const Json result = Json::parse(outcome.out);
+    for (const Json& one : result["runs"])
+      if (one["lists"] == lists) nodes = one["hidden"];
+    EXPECT_EQ(outcome.exitCode, nodes > 0 ? 1 : 0) << outcome.out;
+    return nodes;
+  };
+  EXPECT_EQ(hidden("surfaces", {}), 0u);
+  EXPECT_EQ(hidden("shadows", {}), 0u);
+  fs::create_directories(folder.path() / "broken/pipelines");
+  fs::create_directories(folder.path() / "broken/deepshadow");
+  folder.write("broken/pipelines/translucent.frag",
+               replaced(shader("pipelines/translucent.frag"), "depth < opaque && ", ""));
+  folder.write("broken/deepshadow/listed.frag",
+               replaced(shader("deepshadow/listed.frag"), "depth < texelFetch(opaqueDepth, texel, 0).r",
+                        "depth < 1e30"));
+  EXPECT_GT(hidden("surfaces", {"--shader-dir", "broken"}), 300u);
+  EXPECT_GT(hidden("shadows", {"--shader-dir", "broken"}), 10u);
+  // Four samples a pixel as well.
+  EXPECT_EQ(hidden("surfaces", {"--quality", "medium"}), 0u);
+  EXPECT_GT(hidden("surfaces", {"--quality", "medium", "--shader-dir", "broken"}), 300u);
 }
 
 TEST_F(Stress, SaysWhatIsWrongWithAScene) {

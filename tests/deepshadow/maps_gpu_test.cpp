@@ -175,6 +175,78 @@ TEST_F(MapsGpu, NothingBehindAnOpaqueSurfaceIsStored) {
   EXPECT_GT(knots, 0u);
 }
 
+// Small veils one below the other, all in a few texels in the middle; each mesh has every `meshes`-th.
+scene::Scene pileOfVeils(int layers, int meshes, const scene::Material& material, float top, float bottom) {
+  scene::Scene scene;
+  for (int first = 0; first < meshes; ++first) {
+    scene::Mesh pile;
+    for (int layer = first; layer < layers; layer += meshes) {
+      const float height =
+          top + (bottom - top) * (static_cast<float>(layer) + 0.5f) / static_cast<float>(layers);
+      const scene::Mesh veil = tests::quad({-0.3f, height, -0.3f}, {0, 0, 0.6f}, {0.6f, 0, 0});
+      for (const uint32_t index : veil.indices)
+        pile.indices.push_back(index + static_cast<uint32_t>(pile.vertices.size()));
+      pile.vertices.insert(pile.vertices.end(), veil.vertices.begin(), veil.vertices.end());
+    }
+    tests::add(scene, std::move(pile), material);
+  }
+  return scene;
+}
+
+// More than one invocation may walk on drivers that end long loops: 30,000, or 15,000 where some do not
+// shadow themselves. Smoke stands in the pile's upper half.
+TEST_F(MapsGpu, TexelsOfVeryManySurfacesAreExact) {
+  constexpr int layers = 40000;
+  for (const bool shadowSelf : {true, false}) {
+    scene::Material material = tests::veil({0.2f, 0.5f, 1}, 1e-4f);
+    material.shadowSelf = shadowSelf;
+    KnownScene known{"pile", pileOfVeils(layers, 1, material, 3, 1), {}};
+    known.scene.lights = {tests::directionalLight({0, -1, 0}, dvec3(1))};
+    known.media = {tests::block({-3, 2, -3}, {3, 3, 3}, {8, 8, 8}, 0.7, dvec3(0.5), 0)};
+    const LightFunction map = build(known, 32, 1.0 / 1024);
+    size_t piled = 0;
+    for (size_t number = 0; number < map.texels.size(); ++number) {
+      const ReadMap::Texel& texel = map.texels[number];
+      if (texel.knots < size_t{2} * layers) continue;
+      ++piled;
+      const double top = ray(map, number).first.y;
+      for (double y = 2.9; y > 0.9; y -= 0.1) {
+        if (std::abs(y - 2) < 0.16 || std::abs(y - 3) < 0.16) continue;  // the smoke's ramps
+        const double passed = std::clamp((3 - y) / 2, 0.0, 1.0) * layers;
+        const double expected = std::exp(passed * std::log1p(-1e-4) - 0.7 * std::clamp(3 - y, 0.0, 1.0));
+        EXPECT_NEAR(map.transmittance(number, top - y).g, expected, 2e-3) << y;
+      }
+      for (size_t i = texel.firstKnot + 1; i < texel.firstKnot + texel.knots; ++i) {
+        ASSERT_GE(map.knots[i].depth, map.knots[i - 1].depth) << i - texel.firstKnot;
+        ASSERT_GE(map.knots[i].tauG, map.knots[i - 1].tauG) << i - texel.firstKnot;
+      }
+    }
+    EXPECT_GE(piled, 1u);
+  }
+}
+
+// Whether an object shadowed before is looked for among all surfaces before: some 800,000 steps a texel.
+TEST_F(MapsGpu, ObjectsThatShadowOnceAreFoundAmongVeryManySurfaces) {
+  constexpr int objects = 200;
+  constexpr int layers = 8000;
+  scene::Material material = tests::veil({0.2f, 0.5f, 1}, 0.01f);
+  material.shadowOnce = true;
+  KnownScene known{"pile", pileOfVeils(layers, objects, material, 3, 1), {}};
+  known.scene.lights = {tests::directionalLight({0, -1, 0}, dvec3(1))};
+  const LightFunction map = build(known, 32, 1.0 / 1024);
+  size_t piled = 0;
+  for (size_t number = 0; number < map.texels.size(); ++number) {
+    if (map.texels[number].knots < size_t{2} * layers) continue;
+    ++piled;
+    const double top = ray(map, number).first.y;
+    // The first surface of each object stands in the first fortieth of the pile.
+    EXPECT_NEAR(map.transmittance(number, top - 2.975).r, std::pow(0.99, objects / 2), 0.01);
+    EXPECT_NEAR(map.transmittance(number, top - 2.9).r, std::pow(0.99, objects), 1e-3);
+    EXPECT_NEAR(map.transmittance(number, top).r, std::pow(0.99, objects), 1e-3);
+  }
+  EXPECT_GE(piled, 1u);
+}
+
 TEST_F(MapsGpu, WindowsAndGrowingPoolsGiveTheSameFunctions) {
   // 1536 texels a side are built in three windows, and their knots outgrow the first pool.
   const KnownScene known = smokeUnder(tests::directionalLight({0.4, -1, 0.2}, dvec3(1)));

@@ -7,6 +7,7 @@
 
 #include "deepshadow/maps_gpu.h"
 #include "pipelines/geometry_gpu.h"
+#include "scene/light_faces.h"
 #include "tests/gl/test_device.h"
 #include "tests/pipelines/known_scenes.h"
 
@@ -46,7 +47,8 @@ class MapsTest : public GpuTest {
     const volumes::VolumesGpu media(device(), known.media);
     const deepshadow::Casters casters{.opaque = [&] { geometry.draw(pipelines::Layer::ShadowDepth, false); },
                                       .listed = [&] { geometry.draw(pipelines::Layer::ShadowLists, false); },
-                                      .once = geometry.hasShadowOnce()};
+                                      .once = geometry.hasShadowOnce(),
+                                      .notSelf = geometry.hasNotSelf()};
     const deepshadow::Maps maps(device(), {.lights = known.scene.lights,
                                            .casters = casters,
                                            .volumes = media,
@@ -56,7 +58,7 @@ class MapsTest : public GpuTest {
                                            .stepVoxels = stepVoxels});
     statistics_ = maps.lights().front();
     EXPECT_EQ(maps.cutMarches(), 0u);
-    return {maps.read(0), deepshadow::facesOf(known.scene.lights.front(), resolution, hull, hull)};
+    return {maps.read(0), scene::facesOf(known.scene.lights.front(), resolution, hull, hull)};
   }
 
   deepshadow::LightMap statistics_;  // of the first light

@@ -314,6 +314,8 @@ TEST(WithoutOpenImageIO, EveryFunctionSaysSo) {
   EXPECT_EQ(codeOf([] { checkImageName("a.exr"); }, "a.exr: "), input);
   EXPECT_EQ(codeOf([] { writeLayers("a.exr", Image(1, 1, 3), {}, {}); }, "a.exr: "), input);
   EXPECT_EQ(codeOf([] { holdsLayers("a.exr"); }, "a.exr: "), input);
+  EXPECT_EQ(codeOf([] { writeDeep("a.exr", {}, {}); }, "a.exr: "), input);
+  EXPECT_EQ(codeOf([] { checkDeepName("a.exr"); }, "a.exr: "), input);
   EXPECT_EQ(codeOf([] { readLayer("a.exr", "depth"); }, "a.exr: "), input);
   EXPECT_EQ(codeOf([] { decodePicture({}, "a picture"); }, "a picture: "), input);
 }

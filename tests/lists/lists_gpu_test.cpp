@@ -232,6 +232,19 @@ TEST_F(ListsGpu, ABudgetHoldsAndNothingIsLost) {
   }
 }
 
+TEST_F(ListsGpu, ABudgetIsOfEmptyCellsAsWell) {
+  const Load nothing{0, 20000, 1, 1};
+  for (const Strategy strategy : strategies) {
+    Lists lists(device(), "empty lists", nothing.cells, 4, {.strategy = strategy, .budgetBytes = 50000});
+    EXPECT_FALSE(lists.tryBuild(device(), nothing.cells, drawOf(nothing, 1)));
+    EXPECT_GT(lists.fitting(), 1000u);
+    const auto fitted = lists.tryBuild(device(), lists.fitting(), drawOf(nothing, 1));
+    ASSERT_TRUE(fitted);
+    EXPECT_LE(fitted->bytes, 50000u);
+    EXPECT_LE(lists.buildWindows(device(), drawOf(nothing, 1), [](const Window&) {}).bytes, 50000u);
+  }
+}
+
 TEST_F(ListsGpu, ABudgetDownToOneNodeHolds) {
   const Load load{40, 200, 10, 9};  // no cell has more than a few
   const Cells expected = listsOnTheCpu(load);

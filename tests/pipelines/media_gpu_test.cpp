@@ -10,8 +10,8 @@ namespace {
 
 using tests::KnownScene;
 
-constexpr int width = 64;
-constexpr int height = 48;
+constexpr int width = 48;
+constexpr int height = 36;
 
 std::vector<KnownScene> mediaScenes() {
   return {tests::colouredSlab(), tests::overlappingColours(), tests::colouredShadow(), tests::colouredBalls(),

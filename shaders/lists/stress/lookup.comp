@@ -19,7 +19,7 @@ void main() {
   uint cursor = run.first;
   uint sum = 0u;
   for (uint lookup = 1u; lookup <= LOOKUPS; ++lookup) {
-    float depth = float(lookup) / float(LOOKUPS);
+    float depth = stressParams.lookups.x * (float(lookup) / float(LOOKUPS));
     uint stride = 1u;
     while (cursor + stride <= end && listDepth(cursor + stride - 1u) <= depth) {
       cursor += stride;

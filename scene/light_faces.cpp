@@ -1,0 +1,16 @@
+#include "scene/light_faces.h"
+
+namespace sfumato::scene {
+
+std::vector<deepshadow::FaceProjection> facesOf(const lights::Light& light, int resolution,
+                                                std::span<const glm::dvec3> receivers,
+                                                std::span<const glm::dvec3> castingPoints) {
+  const int side = deepshadow::faceSide(resolution);
+  if (light.type == lights::LightType::Directional)
+    return {deepshadow::directionalFace(light.direction, side, receivers, castingPoints)};
+  if (light.type == lights::LightType::Spot && light.outerCone <= deepshadow::widestCone)
+    return {deepshadow::coneFace(light.position, light.direction, light.outerCone, side)};
+  return deepshadow::cubeFaces(light.position, side);
+}
+
+}  // namespace sfumato::scene

@@ -1,0 +1,42 @@
+// The smoke of a face into linked lists, for comparisons: for each texel some nodes, each the optical depth of an equal
+// stretch of the ray through all media, up to the opaque depth. With one node this is the smoke of Lindbeck 2015, 2.2.5.
+#define LIST_PAYLOAD ShadowNode
+#include "shaders/shared/deepshadow.h"
+#include "shaders/lists/insert.glsl"
+#include "shaders/shared/linear_id.glsl"
+#include "shaders/shared/view.h"
+#include "shaders/volumes/media.glsl"
+
+layout(std140, binding = UNIFORM_PASS) uniform Pass {
+  ShadowPassParams params;
+};
+layout(std140, binding = UNIFORM_VIEW) uniform View {
+  ViewParams view;
+};
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+
+void main() {
+  uint cell = linearId();
+  if (cell >= uint(view.size.x * view.size.y)) return;
+  ivec2 texel = ivec2(int(cell) % view.size.x, int(cell) / view.size.x);
+  float opaque = texelFetch(opaqueDepth, texel, 0).r;
+  vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
+  bool orthographic = view.halfExtent.z != 0.0;
+  vec3 origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;
+  vec3 perDepth = mat3(view.worldFromView) * (orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0));
+  MediaRay media = mediaRay(origin, perDepth, vec2(0.0, opaque), params.march.x);
+  vec2 range = media.rangeOfAll;
+  float depth = range.x;
+  for (int i = 0; i < params.units.x && depth < range.y; ++i) {
+    float from = depth;
+    float to = mix(range.x, range.y, float(i + 1) / float(params.units.x));
+    float tau = 0.0;
+    while (depth < to) {
+      float next = stepEnd(media, depth, to);
+      tau += maxComponent(vec3(extinction(media, 0.5 * (depth + next)))) * (next - depth) * length(perDepth);
+      depth = next;
+    }
+    if (tau > 0.0)
+      listStore(uint(view.size.z) + cell, from, SHADOW_SMOKE_IDS + uint(i), ShadowNode(floatBitsToUint(to), floatBitsToUint(tau)));
+  }
+}
