@@ -184,8 +184,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Look shadows up so: nearest, bilinear, soft; else by --quality")
       ->type_name("NAME")
       ->check(oneOf(pipelines::shadowFilterNames()));
-  add("--shadow-memory", options.shadowMemory,
-      "Most that they may take together, else what the device reads")
+  add("--shadow-memory", options.shadowMemory, "Most that they may take together, else what the device reads")
       ->type_name("BYTES|64K|256M|2G");
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "deepshadow/shadow_faces.h"
 #include "lights/light_reach.h"
 #include "scene/visible_hull.h"
 
@@ -68,40 +70,74 @@ glm::dmat4 worldFromUnit(const Bounds& box) {
   return result;
 }
 
-}  // namespace
-
-double pixelsLit(const lights::Light& light, std::span<const Bounds> parts, const scene::Camera& camera,
-                 int width, int height) {
-  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
-  const double aspect = static_cast<double>(width) / height;
-  bool reached = false;
-  dvec2 low(scene::infinity);
-  dvec2 high(-scene::infinity);
+// Corners of what the light may reach of the parts, cut to the camera's view; nothing where it reaches none
+// of them.
+std::optional<std::vector<dvec3>> seenAndLit(const lights::Light& light, std::span<const Bounds> parts,
+                                             const scene::Camera& camera, double aspect) {
+  std::optional<std::vector<dvec3>> points;
   for (const Bounds& part : parts) {
     if (part.empty()) continue;
     const Bounds lit = litPart(light, part);
     if (lit.empty()) continue;
-    reached = true;
-    for (const dvec3& p : scene::visiblePoints({}, {worldFromUnit(lit)}, camera, aspect)) {
-      const dvec2 place = onImage(p, camera, viewFromWorld);
-      low = glm::min(low, place);
-      high = glm::max(high, place);
-    }
+    if (!points) points.emplace();
+    const auto seen = scene::visiblePoints({}, {worldFromUnit(lit)}, camera, aspect);
+    points->insert(points->end(), seen.begin(), seen.end());
   }
-  if (!reached) return -1;
+  return points;
+}
+
+double pixelsAround(const std::vector<dvec3>& points, const scene::Camera& camera, int width, int height) {
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  dvec2 low(scene::infinity);
+  dvec2 high(-scene::infinity);
+  for (const dvec3& p : points) {
+    const dvec2 place = onImage(p, camera, viewFromWorld);
+    low = glm::min(low, place);
+    high = glm::max(high, place);
+  }
   const dvec2 size = glm::max(high - low, dvec2(0));
   return std::min(std::max(size.x, size.y) * height, double(std::max(width, height)));
+}
+
+// Of the width of a face of the light's map, what the points take up. Faces of directional lights are fitted
+// to them.
+double shareOfFace(const lights::Light& light, const std::vector<dvec3>& points) {
+  if (light.type == lights::LightType::Directional) return 1;
+  dvec3 middle(0);
+  for (const dvec3& p : points) middle += glm::normalize(p - light.position);
+  middle = glm::normalize(middle);
+  double farthest = 1;  // cosine
+  for (const dvec3& p : points)
+    farthest = std::min(farthest, glm::dot(glm::normalize(p - light.position), middle));
+  const bool cone = light.type == lights::LightType::Spot && light.outerCone <= deepshadow::widestCone;
+  const double share = std::acos(std::max(farthest, -1.0)) / (cone ? light.outerCone : M_PI_4);
+  return share < 1 ? share : 1;  // also where it is no number: a point at the light
+}
+
+}  // namespace
+
+double pixelsLit(const lights::Light& light, std::span<const Bounds> parts, const scene::Camera& camera,
+                 int width, int height) {
+  const auto points = seenAndLit(light, parts, camera, static_cast<double>(width) / height);
+  return points ? pixelsAround(*points, camera, width, height) : -1;
 }
 
 std::vector<int> shadowResolutions(std::span<const lights::Light> lights, std::span<const Bounds> parts,
                                    const scene::Camera& camera, int width, int height,
                                    const Quality& quality) {
+  constexpr int least = 32;
   std::vector<int> resolutions;
   for (const lights::Light& light : lights) {
-    const double pixels = light.castsShadow ? pixelsLit(light, parts, camera, width, height) : -1;
-    const double share = quality.exactShadowResolution ? 1 : std::min(pixels / pixelsOfFullResolution, 1.0);
-    resolutions.push_back(
-        pixels < 0 ? 0 : std::max(32, static_cast<int>(std::ceil(quality.shadowResolution * share))));
+    const auto points = light.castsShadow
+                            ? seenAndLit(light, parts, camera, static_cast<double>(width) / height)
+                            : std::nullopt;
+    int& resolution = resolutions.emplace_back(0);
+    if (!points) continue;
+    const double wanted = pixelsAround(*points, camera, width, height) / pixelsOfFullResolution;
+    const double share = quality.exactShadowResolution
+                             ? 1
+                             : std::min(wanted / std::max(shareOfFace(light, *points), 1e-6), 1.0);
+    resolution = std::max(least, static_cast<int>(std::ceil(quality.shadowResolution * share)));
   }
   return resolutions;
 }

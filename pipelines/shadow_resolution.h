@@ -13,7 +13,8 @@
 namespace sfumato::pipelines {
 
 // Image pixels that a light covers from which on its map has the quality's full resolution; below, it has as
-// many texels for each pixel.
+// many texels for each pixel. A camera that looks at a small part of what a cone or a face of a cube lights
+// gets as many for that part.
 constexpr double pixelsOfFullResolution = 640;
 
 // Longest side, in pixels of an image of width x height, of what a light may reach of the `parts`: boxes

@@ -69,6 +69,22 @@ TEST(ShadowResolution, MapsAreAsLargeAsWhatLightsCover) {
             (std::vector<int>{1024, 0, 0, 1024, 1024}));
 }
 
+// The texels are where the camera looks.
+TEST(ShadowResolution, AZoomNeedsAsManyTexelsAsTheWhole) {
+  const Quality quality = qualityNamed("medium");
+  const std::vector<Light> lights = {tests::spotLight({0, 10, 0}, {0, 0, 0}, dvec3(1000), 0.2, 0.3),
+                                     lamp({0, 10, 0}, 100)};
+  scene::Camera close = above;
+  close.yMagnitude = 0.2;
+  // 106 pixels of the image are 1/15 of the spot's cone, and less of a cube's face.
+  const std::vector<Bounds> parts = {{{-0.2, -0.1, -0.15}, {0.2, 0, 0.15}}};
+  for (const int resolution : shadowResolutions(lights, parts, close, 160, 120, quality))
+    EXPECT_EQ(resolution, 1024);
+  // All of the cone on as few pixels needs few.
+  const std::vector<Bounds> whole = {{{-3, -0.1, -3}, {3, 0, 3}}};
+  EXPECT_LT(shadowResolutions(lights, whole, above, 160, 120, quality)[0], 300);
+}
+
 // Against points: none that is seen and lit lies outside of what was found.
 TEST(ShadowResolution, IsNeverTooSmall) {
   base::Random random(9);
