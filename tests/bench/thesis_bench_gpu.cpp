@@ -4,8 +4,8 @@
 // demos/make_demo_scene, or in any other glTF file; its lights are left out. Each is drawn as Sfumato does,
 // and as the thesis does: lists that stay linked, sorted under spin locks, and lookups that walk them from
 // the head; the smoke of a texel is then one node, as there, or several, which are nearer to the truth.
-// Prints milliseconds, the medians of some frames drawn in turn, and their ratios; with an .svg file, plots
-// them.
+// Prints milliseconds, the medians of some frames drawn in turn, and their ratios, by the wall clock and, of
+// frames, by the processor; with an .svg file, plots them.
 //   thesis_bench SCENE.gltf [FRAMES [PLOT.svg [TEST]]]
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
+#include <ctime>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -41,7 +41,8 @@ const Way thesis{"linked, 1 node of smoke", 1};
 const Way finer{"linked, 16 nodes of smoke", 16};
 
 struct Times {
-  double lightLists = 0, shadowMaps = 0, resolve = 0, frame = 0;  // ms
+  double lightLists = 0, shadowMaps = 0, resolve = 0, frame = 0;  // ms, wall clock
+  double processor = 0;                                           // ms of all threads, of the frame
 };
 
 struct Row {
@@ -157,15 +158,21 @@ class Bench {
     for (int i = 0; i <= frames_; ++i) {
       for (size_t way = 0; way < ways.size(); ++way) {
         device_.profiler().reset();
+        const std::clock_t processor = std::clock();
         const auto start = std::chrono::steady_clock::now();
         images[way] =
             pipeline.render(world.scene.cameras.at(0), width, height, qualityOf(ways[way], shadowResolution))
                 .radiance;
         const std::chrono::duration<double, std::milli> frame = std::chrono::steady_clock::now() - start;
-        if (i > 0) times[way].push_back(timesOf(device_, frame.count()));  // the first compiles
+        if (i == 0) continue;  // compiles
+        times[way].push_back(timesOf(device_, frame.count()));
+        times[way].back().processor = 1e3 * static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
       }
     }
-    if (!plot_.empty()) image::writeImage(fmt::format("{}.{}.{}.png", plot_, test, size), images[0], {});
+    if (!plot_.empty())
+      image::writeImage(fmt::format("{}.{}.{}.png", plot_, test,
+                                    std::string(size.begin(), std::find(size.begin(), size.end(), ' '))),
+                        images[0], {});
     for (size_t way = 0; way < ways.size(); ++way) {
       const auto of = [&](double Times::*part) {
         std::vector<double> values;
@@ -173,7 +180,7 @@ class Bench {
         return median(values);
       };
       const Times medians{of(&Times::lightLists), of(&Times::shadowMaps), of(&Times::resolve),
-                          of(&Times::frame)};
+                          of(&Times::frame), of(&Times::processor)};
       rows_.push_back({test, size, ways[way].name, medians});
       print(rows_.back(), rows_[rows_.size() - 1 - way].times);
       if (way > 0)
@@ -199,12 +206,13 @@ class Bench {
   static void print(const Row& row, const Times& first) {
     const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
     fmt::print(
-        "{:14} {:12} {:28} light lists {:8.1f}, shadow maps {:9.1f}, resolve {:9.1f}, frame {:9.1f} ms;"
-        " times the first: {:.2f}, {:.2f}, {:.2f}, {:.2f}\n",
+        "{:14} {:12} {:28} light lists {:8.1f}, shadow maps {:9.1f}, resolve {:9.1f}, frame {:9.1f} ms, of "
+        "the "
+        "processor {:9.1f} ms; times the first: {:.2f}, {:.2f}, {:.2f}, {:.2f}, {:.2f}\n",
         row.test, row.size, row.way, row.times.lightLists, row.times.shadowMaps, row.times.resolve,
-        row.times.frame, ratio(row.times.lightLists, first.lightLists),
+        row.times.frame, row.times.processor, ratio(row.times.lightLists, first.lightLists),
         ratio(row.times.shadowMaps, first.shadowMaps), ratio(row.times.resolve, first.resolve),
-        ratio(row.times.frame, first.frame));
+        ratio(row.times.frame, first.frame), ratio(row.times.processor, first.processor));
   }
 
   gl::Device& device_;
@@ -296,7 +304,8 @@ int run(const std::string& path, int frames, const std::string& plotPath, const 
   const World floor = spotOnFloor();
   for (int side = 256; wanted("shadows") && side <= 2048; side *= 2)
     bench.run("shadows", fmt::format("{0} x {0}", side), floor, side, {ours, thesis});
-  for (int count = 5; wanted("both") && count <= 25; count += 5) {
+  for (int count = 5; count <= 25; count += 5) {
+    if (!wanted("both") && only != fmt::format("both{}", count)) continue;
     hall.scene.lights = coneLights(room, count, true);
     bench.run("both", fmt::format("{} lights", count), hall, 512, {ours, thesis, finer});
   }
@@ -309,7 +318,7 @@ int run(const std::string& path, int frames, const std::string& plotPath, const 
 
 int main(int argumentCount, char** arguments) {
   if (argumentCount < 2) {
-    fmt::print(stderr, "usage: thesis_bench SCENE.gltf [FRAMES [PLOT.svg [lights|shadows|both]]]\n");
+    fmt::print(stderr, "usage: thesis_bench SCENE.gltf [FRAMES [PLOT.svg [lights|shadows|both|both25]]]\n");
     return 2;
   }
   const auto argument = [&](int i) { return i < argumentCount ? std::string(arguments[i]) : std::string(); };
