@@ -170,7 +170,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->check(between(0.01, 100.0));
   command
       .add_flag("--half-res-smoke", options.halfResolutionSmoke,
-                "March smoke once for 2 x 2 pixels that see about as far: faster, less sharp")
+                "March smoke once for 2 x 2 pixels that see as far: faster, less sharp")
       ->group("Quality");
   add("--shadow-res", options.shadowResolution,
       "Texels a side of every deep shadow map: 32 to 16384, else what suits")
@@ -184,8 +184,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Look shadows up so: nearest, bilinear, soft; else by --quality")
       ->type_name("NAME")
       ->check(oneOf(pipelines::shadowFilterNames()));
-  add("--shadow-memory", options.shadowMemory,
-      "Most that they may take together, else what the device reads")
+  add("--shadow-memory", options.shadowMemory, "Most that they may take together, else what the device reads")
       ->type_name("BYTES|64K|256M|2G");
 }
 

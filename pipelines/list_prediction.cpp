@@ -33,6 +33,8 @@ constexpr size_t leastOfView = 256;
 // those of more instances by one box.
 constexpr size_t mostForHull = size_t{1} << 16;
 constexpr size_t mostBoxes = size_t{1} << 12;
+// Pairs of a light and a part that is seen; beyond, one box stands for all parts.
+constexpr size_t mostLitParts = size_t{1} << 16;
 
 // Equal parts of a row of `all` things: from each one is drawn, and stands for the rest of it.
 struct Strata {
@@ -220,7 +222,8 @@ ListPrediction predictLists(const scene::Scene& scene, std::span<const volumes::
   const Predictor predictor(scene, quality);
   std::vector<glm::dmat4> boxes;
   for (const volumes::Medium& medium : media) boxes.push_back(volumes::worldFromUnit(medium));
-  const Seen seen = seenOf(scene, boxes, camera, static_cast<double>(width) / height);
+  Seen seen = seenOf(scene, boxes, camera, static_cast<double>(width) / height);
+  if (seen.parts.size() * scene.lights.size() > mostLitParts) seen.parts = {scene::boundsOf(seen.points)};
   const std::vector<dvec3> casting = scene::boundingPoints(scene, boxes);
   const std::vector<int> resolutions =
       shadowResolutions(scene.lights, seen.parts, camera, width, height, quality);

@@ -23,7 +23,8 @@ void checkExtent(const VolumePlacement& placement, const glm::dmat4& worldFromIn
 }
 
 volumes::Fire readFire(const VolumePlacement& placement) {
-  volumes::DensityGrid grid = volumes::readVdb(placement.file, placement.fire.gridName);
+  volumes::DensityGrid grid =
+      volumes::readVdb(placement.file, placement.fire.gridName, volumes::usualVdbBytes, "--fire");
   const glm::dmat4 worldFromIndex = placement.worldFromGridWorld * grid.worldFromIndex;
   checkExtent(placement, worldFromIndex);
   volumes::Fire fire =

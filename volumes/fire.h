@@ -28,7 +28,7 @@ FireLook usualLook(const std::string& gridName);
 // for 0 K and less.
 glm::dvec3 blackbodyXyz(double kelvin);
 // The same as linear sRGB. What is outside its gamut is cut to it: below about 1900 K there is no blue, below
-// 900 K no green.
+// 960 K no green.
 glm::dvec3 blackbody(double kelvin);
 
 // Throws Input when the look is of black bodies and the grid gets hotter than 100,000 K; `place` begins the

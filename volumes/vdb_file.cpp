@@ -44,7 +44,7 @@ std::string listGrids(const VdbDirectory& directory) {
 
 // The float grid of that name; without a name "density", else the only float grid.
 const VdbEntry& chooseGrid(const VdbDirectory& directory, const std::string& path,
-                           const std::string& gridName) {
+                           const std::string& gridName, const std::string& option) {
   std::vector<const VdbEntry*> floats, named;
   for (const VdbEntry& entry : directory.entries) {
     if (entry.type != "float") continue;
@@ -57,10 +57,11 @@ const VdbEntry& chooseGrid(const VdbDirectory& directory, const std::string& pat
   const std::string wanted = shown(gridName.empty() ? "density" : gridName);
   if (named.empty())
     fail(ExitCode::Input, "{}: no float grid \"{}\" (has: {}): {}", path, wanted, listGrids(directory),
-         floats.empty() ? "export one of floats" : "choose one with --grid NAME");
+         floats.empty() ? std::string("export one of floats")
+                        : fmt::format("choose one with {} NAME", option));
   if (named.size() > 1)
-    fail(ExitCode::Input, "{}: {} grids are called \"{}\": choose one with --grid \"{}\"", path, named.size(),
-         wanted, shown(named[0]->shownName));
+    fail(ExitCode::Input, "{}: {} grids are called \"{}\": choose one with {} \"{}\"", path, named.size(),
+         wanted, option, shown(named[0]->shownName));
   return *named[0];
 }
 
@@ -222,26 +223,46 @@ openvdb::Mat4d rowVectorMatrix(const glm::dmat4& matrix) {
   return result;
 }
 
-openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
-  const auto vdb = openvdb::FloatGrid::create(0.f);
-  vdb->setName(grid.name);
-  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
-  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
+void copyDense(const DensityGrid& grid, openvdb::FloatGrid& vdb) {
   const openvdb::Coord origin(grid.origin.x, grid.origin.y, grid.origin.z);
   const openvdb::Coord size(grid.size.x, grid.size.y, grid.size.z);
   // Dense wants to be able to write, but copyFromDense only reads.
   const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
       openvdb::CoordBBox(origin, origin + size.offsetBy(-1)), const_cast<float*>(grid.values.data()));
-  openvdb::tools::copyFromDense(dense, *vdb, 0.f);
+  openvdb::tools::copyFromDense(dense, vdb, 0.f);
+}
+
+void copyBricks(const DensityGrid& grid, openvdb::FloatGrid& vdb) {
+  auto accessor = vdb.getAccessor();
+  forEachRow(grid, [&](const glm::ivec3& first, std::span<const float> row) {
+    openvdb::Coord at(grid.origin.x + first.x, grid.origin.y + first.y, grid.origin.z + first.z);
+    for (const float value : row) {
+      if (value != 0) accessor.setValue(at, value);
+      at.x() += 1;
+    }
+  });
+}
+
+openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
+  const auto vdb = openvdb::FloatGrid::create(0.f);
+  vdb->setName(grid.name);
+  vdb->setGridClass(openvdb::GRID_FOG_VOLUME);
+  vdb->setTransform(openvdb::math::Transform::createLinearTransform(rowVectorMatrix(grid.worldFromIndex)));
+  vdb->setSaveFloatAsHalf(grid.half);
+  if (grid.dense())
+    copyDense(grid, *vdb);
+  else
+    copyBricks(grid, *vdb);
   return vdb;
 }
 
 }  // namespace
 
-DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes) {
+DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes,
+                    const std::string& option) {
   const std::vector<std::byte> file = base::readFile(path);
   const VdbDirectory directory = readVdbDirectory(file, path.string());
-  const VdbEntry& entry = chooseGrid(directory, path.string(), gridName);
+  const VdbEntry& entry = chooseGrid(directory, path.string(), gridName, option);
   const std::string place = fmt::format("{}: grid \"{}\"", path.string(), shown(entry.shownName));
   const VdbGridLayout layout = layOutVdbGrid(file, path.string(), directory, entry);
   if (layout.gridClass == "level set")
@@ -302,7 +323,7 @@ void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* co
 
 namespace sfumato::volumes {
 
-DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_t) {
+DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_t, const std::string&) {
   base::fail(base::ExitCode::Input, "{}: cannot be read: this build has no OpenVDB", path.string());
 }
 

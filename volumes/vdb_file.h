@@ -18,8 +18,10 @@ namespace sfumato::volumes {
 // point or integer grid; a transform that is not linear (frustum); a background other than 0; a NaN, infinite
 // or negative density. Throws Memory when that would take more than `maxBytes`, or the map
 // of the bricks more than a quarter of them.
+// `option` is what errors say to choose another grid with.
+constexpr size_t usualVdbBytes = size_t{4} << 30;
 DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName,
-                    size_t maxBytes = size_t{4} << 30);
+                    size_t maxBytes = usualVdbBytes, const std::string& option = "--grid");
 
 // Writes the grid (values other than 0 are active) as a fog volume, beside `path` and then renamed.
 // Throws Input when it cannot be written.

@@ -2,8 +2,8 @@
 // the opaque depth, and lights both through light lists and deep shadow maps. A ray that has done much work keeps
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
-// objects that do not shadow themselves. SMOKE_BLOCKS is defined when blocks of pixels were marched before. DEEP is defined when what each ray meets is recorded for a deep image; then the
-// rays are those of a list.
+// objects that do not shadow themselves. SMOKE_BLOCKS is defined when blocks of pixels were marched before. DEEP is
+// defined when what each ray meets is recorded for a deep image; then the rays are those of a list.
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/deep_events.glsl"
 #include "shaders/pipelines/surface_lighting.glsl"

@@ -14,13 +14,13 @@ ivec2 smokeBlockCount() {
 // Depths that differ by less than this see about the same smoke.
 float similarDepth(MediaRay media) {
   float stride = 3e38;
-  for (int v = 0; v < VOLUME_COUNT; ++v) stride = min(stride, media.stride[v]);
-  return 2.0 * stride;
+  for (int v = 0; v < MARCHED; ++v) stride = min(stride, media.stride[v]);
+  return stride;
 }
 
 // Takes what the blocks around a pixel saw, weighted as bilinear interpolation would. False where they do not tell enough.
 bool takeBlocks(ivec2 pixel, MediaRay media, inout vec3 radiance, inout vec3 throughput) {
-  const float ENOUGH = 0.4;  // of the weights: a pixel's own block has 9/16
+  const float ENOUGH = 0.5;  // of the weights: the block of the pixel itself has 9/16, and must be among them
   float farthest = media.rangeOfAll.y;
   float similar = similarDepth(media);
   vec2 place = 0.5 * (vec2(pixel - view.window.xy) + 0.5) - 0.5;

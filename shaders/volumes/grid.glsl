@@ -26,16 +26,18 @@ float sampleGrid(int g, vec3 p) {
   return textureLod(gridValues[g], p, 0.0).r;
 }
 
-// Up to which t the line start + t * rate, in the coordinates of grid g, meets nothing but zeros from the given one on,
-// as far as its bricks tell: at least the given one.
-float emptyUntil(int g, vec3 start, vec3 rate, float t) {
+// What the bricks of grid g tell of the line start + t * rate, in the grid's coordinates, at a t: up to which other one it
+// meets nothing but zeros (x; at least the given one), or stays in a brick that is filled (y; likewise).
+vec2 emptyFilledUntil(int g, vec3 start, vec3 rate, float t) {
   vec3 bricksRate = rate * grids[g].bricksScale.xyz;
   bricksRate = mix(bricksRate, vec3(1e-20), lessThan(abs(bricksRate), vec3(1e-20)));
   vec3 p = (start + t * rate) * grids[g].bricksScale.xyz + grids[g].bricksFirst.xyz;
   vec3 brick = floor(p);
   uint entry = texelFetch(brickMap, ivec3(brick), 0).r;
-  if (entry >= BRICK_FILLED) return t;
-  vec3 faces = mix(brick + 1.0 - float(entry), brick + float(entry), greaterThan(bricksRate, vec3(0.0)));
+  bool filled = entry >= BRICK_FILLED;
+  float reach = filled ? 1.0 : float(entry);
+  vec3 faces = mix(brick + 1.0 - reach, brick + reach, greaterThan(bricksRate, vec3(0.0)));
   vec3 further = (faces - p) / bricksRate;
-  return t + max(min(further.x, min(further.y, further.z)), 0.0);
+  float until = t + max(min(further.x, min(further.y, further.z)), 0.0);
+  return filled ? vec2(t, until) : vec2(until, t);
 }

@@ -68,10 +68,13 @@ float stepEnd(MediaRay ray, float depth, float limit) {
 uint jumped = 0u;  // steps of this invocation that emptyEnd spared
 #endif
 
+float filledUntil = -3e38;  // depth along the ray of this invocation before which there is no use in asking again
+
 // Of the step that begins at `depth` and ends at `to`, nothing was found in its middle: where the last step ends of which
 // the bricks say the same. Ends are those of stepEnd.
 float emptyEnd(MediaRay ray, float depth, float to, float limit) {
   float middle = 0.5 * (depth + to);
+  if (middle < filledUntil) return to;
   float until = 3e38;
   float stride = 3e38;
   for (int v = 0; v < MARCHED; ++v) {
@@ -80,7 +83,9 @@ float emptyEnd(MediaRay ray, float depth, float to, float limit) {
       limit = min(limit, inside ? ray.range[v].y : ray.range[v].x);
       if (inside) {
         stride = min(stride, ray.stride[v]);
-        until = min(until, emptyUntil(v, ray.start[v], ray.perDepth[v], middle));
+        vec2 emptyFilled = emptyFilledUntil(v, ray.start[v], ray.perDepth[v], middle);
+        until = min(until, emptyFilled.x);
+        filledUntil = max(filledUntil, emptyFilled.y);
       }
     }
   }

@@ -202,6 +202,24 @@ TEST_F(ShadowBudgetGpu, AllMapsAreCoarserTogetherUntilTheyFit) {
   }
 }
 
+// Nobody counts beforehand what looks small; where it is not, it is counted then.
+TEST_F(ShadowBudgetGpu, MoreSurfacesThanUsualAreFoundOutAndFit) {
+  KnownScene known{"many panes", {}, {}};
+  known.scene.lights = {tests::directionalLight({0.1, -1, 0.2}, dvec3(1))};
+  for (int i = 0; i < 40; ++i)
+    tests::add(known.scene, tests::quad({-4, 0.05f * static_cast<float>(i), -4}, {8, 0, 0}, {0, 0, 8}),
+               tests::pane({0.9f, 0.95f, 0.97f}));
+  const MapPlan asked{{128}, 1.0 / 512};
+  const Maps whole = maps(known, asked, {});
+  EXPECT_EQ(whole.predictedBytes(), 0u);
+  EXPECT_GT(whole.bytes(), 128u * 128u * 40u * 2u * 16u / 2u);
+  const size_t bytes = whole.bytes() / 2;
+  const Maps fitted = maps(known, asked, {.bytes = bytes});
+  EXPECT_GT(fitted.predictedBytes(), 0u);
+  EXPECT_LE(fitted.bytes(), bytes);
+  EXPECT_GT(fitted.bytes(), bytes / 2);
+}
+
 TEST_F(ShadowBudgetGpu, WhatWasAskedForExactlyIsKept) {
   const KnownScene known = threeLights();
   const MapPlan asked{{128, 128, 128}, 1.0 / 2048};

@@ -156,6 +156,12 @@ TEST_F(VdbFile, KeepsValuesNamePlaceAndTransformThroughWritingAndReading) {
   EXPECT_EQ(read.worldFromIndex, grid.worldFromIndex);
 }
 
+TEST_F(VdbFile, SaysWithWhichOptionToChooseAnother) {
+  save(path("a.vdb"), {fogGrid("heat")});
+  EXPECT_EQ(errorOf(ExitCode::Input, [&] { readVdb(path("a.vdb"), "flame", usualVdbBytes, "--fire"); }),
+            "a.vdb: no float grid \"flame\" (has: heat (float)): choose one with --fire NAME");
+}
+
 TEST_F(VdbFile, WritesSeveralGridsIntoOneFile) {
   const FlameGrids flame = makeFlame(16, 1, 1);
   const DensityGrid* grids[] = {&flame.smoke, &flame.temperature};
@@ -449,6 +455,17 @@ TEST_F(VdbFile, ReadsWhatIsMostlyEmptyInBricks) {
     }
   });
   EXPECT_EQ(found, grid->activeVoxelCount());
+
+  writeVdb(path("b.vdb"), read);
+  const DensityGrid again = readVdb(path("b.vdb"), "");
+  EXPECT_EQ(again.size, read.size);
+  EXPECT_EQ(again.bricks.map.size(), read.bricks.map.size());
+  EXPECT_EQ(again.bytes(), read.bytes());
+  for (int i = 0; i < 500; ++i) {
+    const glm::ivec3 voxel =
+        glm::ivec3(-300 + (i * 757) % 4000, (i * 113) % 250, (i * 1499) % 4000) - read.origin;
+    EXPECT_EQ(again.value(voxel), read.value(voxel));
+  }
 }
 
 TEST_F(VdbFile, KeepsADenseBoxWhereBricksWouldSaveLittle) {

@@ -19,5 +19,5 @@ void main() {
   Probe probe = probes[linearId()];
   vec3 p = (grids[0].gridFromWorld * vec4(probe.point.xyz, 1.0)).xyz;
   vec3 rate = (grids[0].gridFromWorld * vec4(probe.direction.xyz, 0.0)).xyz;
-  answers[linearId()] = vec2(sampleGrid(0, p), emptyUntil(0, p, rate, 0.0));
+  answers[linearId()] = vec2(sampleGrid(0, p), emptyFilledUntil(0, p, rate, 0.0).x);
 }
