@@ -164,7 +164,8 @@ TEST_F(ReceiversGpuFrames, ManyLightsLightWhatTheReferenceLights) {
     const image::Image reference =
         renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
     const PixelErrors found = compareFrames(known.name, frame.radiance, reference);
-    // Edges of four shadows, and pixels whose ray all but hits a lamp: those make the mean, which tells nothing.
+    // Edges of four shadows, and pixels whose ray all but hits a lamp: those make the mean, which tells
+    // nothing.
     EXPECT_LT(found.failingFraction, 0.01);
     const Lookups& lookups = frame.statistics.lookups;
     EXPECT_EQ(lookups.pixels, static_cast<size_t>(width * height));
