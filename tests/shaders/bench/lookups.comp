@@ -46,14 +46,19 @@ void main() {
   uint node = run.first;
   float next = node < end ? listDepth(node) : 2.0;
   float tau = 0.0;
-  for (int step = 0; step < 64; ++step) {
-    float depth = (float(step) + 0.5) / 64.0;
-    while (next <= depth) {
+  float passing = 1.0;  // changes at nodes only
+  // A step or a node at a time: lanes with a node do not keep those without waiting at every step.
+  float depth = 0.5 / 64.0;
+  while (depth < 1.0) {
+    if (next <= depth) {
       tau += uintBitsToFloat(listPayloadWord(node));
+      passing = exp(-tau);
       ++node;
       next = node < end ? listDepth(node) : 2.0;
+    } else {
+      sum += passing;
+      depth += 1.0 / 64.0;
     }
-    sum += exp(-tau);
   }
 #endif
   results[cell] = sum;
