@@ -142,12 +142,12 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   if (!options.shadowFilter.empty())
     quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
   if (!options.shadowMemory.empty())
-    quality.shadowMemory = lists::bytesNamed(options.shadowMemory, "--shadow-memory");
+    quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
   quality.scatteringOctaves = options.scatteringOctaves;
   if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
-    quality.lists.budgetBytes = lists::bytesNamed(options.listMemory, "--list-memory");
+    quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
   quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
   return quality;
 }
@@ -340,6 +340,8 @@ Shot makeShot(const RenderOptions& options) {
   lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
+  if (!options.volumeMemory.empty())
+    shot.volumeMemory = base::bytesNamed(options.volumeMemory, "--volume-memory");
   shot.aovs = wantedAovs(options);
   shot.deepShadows = deepShadowLights(options, shot.scene);
   return shot;

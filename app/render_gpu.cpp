@@ -8,8 +8,8 @@
 #include "app/statistics_gpu.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/size_text.h"
 #include "gl/device.h"
-#include "lists/strategy.h"
 #include "pipelines/linked_lists_gpu.h"
 
 namespace sfumato::app {
@@ -54,9 +54,9 @@ void noteShadowMaps(const pipelines::FrameStatistics& statistics) {
   std::string resolutions;
   for (const auto& [resolution, count] : lights)
     resolutions += fmt::format("{}{} of {}", resolutions.empty() ? "" : ", ", count, resolution);
-  base::note("shadow maps: {} texels a side, error bound {:.5f}: {:.1f} MiB of {:.0f}{}",
-             resolutions.empty() ? "none" : resolutions, maps.error, static_cast<double>(maps.bytes) / 0x1p20,
-             static_cast<double>(maps.budgetBytes) / 0x1p20, maps.lowered ? ": coarser, to fit" : "");
+  base::note("shadow maps: {} texels a side, error bound {:.5f}: {} of {}{}",
+             resolutions.empty() ? "none" : resolutions, maps.error, base::sizeText(maps.bytes),
+             base::sizeText(maps.budgetBytes), maps.lowered ? ": coarser, to fit" : "");
 }
 
 }  // namespace
@@ -69,10 +69,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   if (!options.statistics.empty()) device.profiler().enable();
 
   RunTimes times;
-  volumes::GridOptions grids;
-  if (!options.volumeMemory.empty())
-    grids.budgetBytes = lists::bytesNamed(options.volumeMemory, "--volume-memory");
-  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media, grids);
+  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media, {.budgetBytes = shot.volumeMemory});
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);

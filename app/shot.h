@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,8 +29,9 @@ struct Shot {
   std::vector<volumes::Medium> media;
   scene::Camera camera;
   pipelines::Quality quality;
-  pipelines::AovSet aovs;           // that are wanted
-  std::vector<size_t> deepShadows;  // lights whose maps are
+  size_t volumeMemory = std::numeric_limits<size_t>::max();  // most bytes of all smoke on the device
+  pipelines::AovSet aovs;                                    // that are wanted
+  std::vector<size_t> deepShadows;                           // lights whose maps are
 };
 
 // Reads everything that is drawn.

@@ -7,6 +7,7 @@
 
 #include "app/stress.h"
 #include "base/error.h"
+#include "base/size_text.h"
 
 namespace sfumato::app {
 namespace {
@@ -25,7 +26,7 @@ size_t listBytes(const Load& load) {
 // Of "none", "256M" or "10%" of what the finished lists take.
 size_t budgetOf(const std::string& text, const Load& load) {
   if (text == "none") return 0;
-  if (!text.ends_with('%')) return lists::bytesNamed(text, "--list-memory");
+  if (!text.ends_with('%')) return base::bytesNamed(text, "--list-memory");
   const double percent = std::stod(text);
   return std::max<size_t>(1, static_cast<size_t>(static_cast<double>(listBytes(load)) * percent / 100));
 }

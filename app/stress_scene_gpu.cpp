@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/size_text.h"
+#include "lights/light_cells.h"
 #include "lists/stress/audit_gpu.h"
 #include "pipelines/linked_lists_gpu.h"
 
@@ -36,7 +38,7 @@ std::vector<lists::ListOptions> listOptions(const StressOptions& options) {
   for (const std::string& budget : options.listMemory.empty() ? unlimited : options.listMemory)
     for (const std::string& strategy : options.lists)
       all.push_back({.strategy = lists::strategyNamed(strategy),
-                     .budgetBytes = budget == "none" ? 0 : lists::bytesNamed(budget, "--list-memory"),
+                     .budgetBytes = budget == "none" ? 0 : base::bytesNamed(budget, "--list-memory"),
                      .onOverflow = lists::onOverflowNamed(options.onOverflow)});
   return all;
 }
@@ -140,7 +142,7 @@ class SceneStress {
         shot_(makeShot(options.shot)),
         bounds_(boundsOf(shot_.scene, shot_.media)),
         ownLights_(shot_.scene.lights),
-        pipeline_(device, shot_.scene, shot_.media),
+        pipeline_(device, shot_.scene, shot_.media, {.budgetBytes = shot_.volumeMemory}),
         result_(result) {}
 
   // As many seeded lights, from now on.
@@ -224,7 +226,8 @@ class SceneStress {
                  : static_cast<size_t>(std::lround(std::sqrt(found->second.lengths.size())));
     };
     runs[0].grid = gridOf(audit, shadowLists, side(shadowLists), side(shadowLists));  // the first face
-    runs[1].grid = gridOf(audit, lightLists, (width + 3) / 4, (height + 3) / 4);
+    runs[1].grid = gridOf(audit, lightLists, static_cast<size_t>(lights::cellsAlong(options_.shot.width)),
+                          static_cast<size_t>(lights::cellsAlong(options_.shot.height)));
     runs[2].grid = gridOf(audit, surfaceLists, width, height);
   }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/size_text.h"
 #include "lists/strategy.h"
 
 namespace sfumato::app {
@@ -88,7 +89,7 @@ CLI::Validator budget() {
       if (percent && *percent > 0 && *percent <= 10000) return {};
     } else {
       try {
-        if (lists::bytesNamed(text, "") > 0) return {};
+        if (base::bytesNamed(text, "") > 0) return {};
       } catch (const base::Error&) {  // told below
       }
     }

@@ -30,7 +30,7 @@ CLI::Validator resolution();
 std::optional<glm::ivec2> parseRange(std::string_view text, int low, int high);
 CLI::Validator range(int low, int high);
 
-// "none", "10%" (above 0, up to 10000), or what lists::bytesNamed() takes.
+// "none", "10%" (above 0, up to 10000), or what base::bytesNamed() takes.
 CLI::Validator budget();
 
 CLI::Validator oneOf(const std::vector<std::string>& names);

@@ -1,9 +1,11 @@
-// Numbers of bytes for people.
+// Numbers of bytes, as people read and write them.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace sfumato::base {
 
@@ -20,5 +22,8 @@ template <typename Integer>
 std::string sizeText(Integer bytes) {
   return sizeText(static_cast<double>(bytes));
 }
+
+// "268435456", "256K", "256M", "2G", in powers of 1024. Throws Usage, naming `flag`, for anything else.
+size_t bytesNamed(std::string_view text, std::string_view flag);
 
 }  // namespace sfumato::base

@@ -16,15 +16,15 @@ bool linked(Strategy strategy) {
   return strategy != Strategy::Count;
 }
 
-size_t blocksOf(size_t count) {
+}  // namespace
+
+size_t scanBlocks(size_t count) {
   return (count + LIST_SCAN_BLOCK - 1) / LIST_SCAN_BLOCK;
 }
 
-}  // namespace
-
 std::vector<size_t> scanLevels(size_t cells) {
-  std::vector<size_t> levels = {blocksOf(cells)};
-  while (levels.back() > LIST_SCAN_BLOCK) levels.push_back(blocksOf(levels.back()));
+  std::vector<size_t> levels = {scanBlocks(cells)};
+  while (levels.back() > LIST_SCAN_BLOCK) levels.push_back(scanBlocks(levels.back()));
   return levels;
 }
 

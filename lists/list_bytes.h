@@ -8,6 +8,8 @@
 
 namespace sfumato::lists {
 
+// Of the scan, to hold so many cells or sums.
+size_t scanBlocks(size_t count);
 // How many sums each level of the scan over `cells` has, from the lowest to the one that is a single block.
 std::vector<size_t> scanLevels(size_t cells);
 

@@ -26,10 +26,6 @@ namespace {
 
 constexpr size_t smallestSort = 4;  // nodes; a run of 2 is sorted as one of 4
 
-size_t blocksOf(size_t count) {
-  return (count + LIST_SCAN_BLOCK - 1) / LIST_SCAN_BLOCK;
-}
-
 size_t sumOf(const std::vector<size_t>& values) {
   size_t sum = 0;
   for (const size_t value : values) sum += value;
@@ -212,7 +208,7 @@ Lists::Counted Lists::scan(gl::Device& device, size_t cells, RunOffset offset) {
   const auto step = [&](const char* shader, const gl::ShaderDefines& defines, size_t count, int place,
                         int sums) {
     useStep({{static_cast<int>(count), place, sums, offset == RunOffset::BehindItsNodes}, glm::ivec4(0)});
-    gl::dispatchLinear(device.program({shader}, defines), blocksOf(count));
+    gl::dispatchLinear(device.program({shader}, defines), scanBlocks(count));
     gl::storageBarrier();
   };
   step("lists/scan_sums.comp", ofCells, cells, 0, 0);

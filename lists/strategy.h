@@ -45,8 +45,6 @@ const std::string& nameOf(OnOverflow policy);
 // Throw Usage, naming the flag --lists or --on-overflow, for another name.
 Strategy strategyNamed(std::string_view name);
 OnOverflow onOverflowNamed(std::string_view name);
-// "268435456", "256K", "256M", "2G", in powers of 1024. Throws Usage, naming `flag`, for anything else.
-size_t bytesNamed(std::string_view text, std::string_view flag);
 
 // Lists by length: class 0 is empty, class 1 one node, class k > 1 up to 2^(k-1) nodes and more than half.
 constexpr size_t lengthClasses = 34;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/size_text.h"
 #include "gl/buffer.h"
 #include "pipelines/deep_pixels.h"
 #include "shaders/shared/bindings.h"
@@ -19,10 +20,9 @@ namespace {
 constexpr size_t firstBatch = size_t{1} << 14;  // pixels
 
 [[noreturn]] void failOverMemory(size_t bytes, size_t mostBytes) {
-  base::fail(
-      base::ExitCode::Memory,
-      "deep image: its samples take more than {} MiB, and {} MiB are there for them: lower the resolution",
-      bytes >> 20, mostBytes >> 20);
+  base::fail(base::ExitCode::Memory,
+             "deep image: its samples take {} and more, and {} are there for them: lower the resolution",
+             base::sizeText(bytes), base::sizeText(mostBytes));
 }
 
 size_t bytesOf(const std::vector<image::DeepSample>& samples) {
@@ -45,13 +45,9 @@ struct Batch {
 
 Batch batchOf(const DeepRays& rays, size_t first, size_t count) {
   Batch batch{.first = first, .count = count};
-  const size_t pixels = rays.groups.size();
   for (size_t pixel = first; pixel < first + count; ++pixel) {
     batch.raysBefore.push_back(batch.rays.size());
-    batch.rays.push_back(static_cast<uint32_t>(pixel));
-    if (const uint32_t group = rays.groups[pixel]; group != 0)
-      for (size_t i = 0; i < rays.further; ++i)
-        batch.rays.push_back(static_cast<uint32_t>(pixels + (group - 1) * rays.further + i));
+    rays.ofPixels.forEachRay(pixel, [&](size_t ray) { batch.rays.push_back(static_cast<uint32_t>(ray)); });
   }
   batch.raysBefore.push_back(batch.rays.size());
   return batch;
@@ -80,7 +76,7 @@ class Recorder {
         bytes_(bytesOf(image)) {}
 
   void record() {
-    const size_t pixels = rays_.groups.size();
+    const size_t pixels = rays_.ofPixels.groups.size();
     size_t count = firstBatch;
     for (size_t first = 0; first < pixels;) {
       count = std::min(count, pixels - first);

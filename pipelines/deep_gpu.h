@@ -8,6 +8,7 @@
 #include "deepshadow/maps_gpu.h"
 #include "gl/device.h"
 #include "image/deep_image.h"
+#include "pipelines/split_rays.h"
 #include "pipelines/tiles.h"
 #include "shaders/shared/view.h"
 
@@ -22,11 +23,10 @@ struct DeepLimits {
 // The same, with no more for samples than half of the memory that is free.
 DeepLimits withinMemory(DeepLimits limits);
 
-// The rays of a window's pixels: see shaders/shared/resolve.h.
+// The rays of a window's pixels.
 struct DeepRays {
   Tile window;
-  std::vector<uint32_t> groups;           // pixelGroups of the window's pixels
-  size_t further = 0;                     // rays of a split pixel beside its first one
+  const SplitRays& ofPixels;
   std::function<void(size_t rays)> walk;  // walks so many rays, which are bound with room for their events
 };
 

@@ -120,22 +120,20 @@ Split splitPixels(gl::Device& device, const SplitInputs& inputs) {
 
 // Radiance, and transmittance where that is wanted, of the window's pixels. A split pixel is the mean of its
 // samples.
-void readRays(const gl::Buffer& rays, const Split& split, size_t rayCount, const ResolveInputs& inputs,
+void readRays(const gl::Buffer& rays, const SplitRays& ofPixels, size_t rayCount, const Tile& window,
               Frame& frame) {
-  const size_t pixels = inputs.window.pixels();
   const auto states = rays.readValues<shared::RayState>(rayCount);
-  const auto groups = split.groups.readValues<uint32_t>(pixels);
-  const size_t further = inputs.gbuffer.samplePositions.size() - 1;
   const auto read = [&](auto colourOf, image::Image& image) {
-    for (size_t pixel = 0; pixel < pixels; ++pixel) {
-      glm::vec3 sum = colourOf(states[pixel]);
-      if (groups[pixel] != 0) {
-        const size_t firstRay = pixels + (groups[pixel] - 1) * further;
-        for (size_t ray = firstRay; ray < firstRay + further; ++ray) sum += colourOf(states[ray]);
-        sum /= static_cast<float>(further + 1);
-      }
-      const glm::ivec2 place = inputs.window.placeOf(pixel, image.height);
-      std::copy_n(&sum.x, 3, image.pixel(place.x, place.y));
+    for (size_t pixel = 0; pixel < window.pixels(); ++pixel) {
+      glm::vec3 mean(0.f);
+      float count = 0;
+      ofPixels.forEachRay(pixel, [&](size_t ray) {
+        mean += colourOf(states[ray]);
+        ++count;
+      });
+      mean /= count;
+      const glm::ivec2 place = window.placeOf(pixel, image.height);
+      std::copy_n(&mean.x, 3, image.pixel(place.x, place.y));
     }
   };
   read([](const shared::RayState& ray) { return glm::vec3(ray.radianceR, ray.radianceG, ray.radianceB); },
@@ -150,16 +148,12 @@ void readRays(const gl::Buffer& rays, const Split& split, size_t rayCount, const
 }
 
 // Adds what the window's pixels looked up; that of a split pixel is the sum over its samples.
-void readLookups(const gl::Buffer& lookups, const Split& split, size_t rayCount, const ResolveInputs& inputs,
-                 Lookups& all) {
-  const size_t pixels = inputs.window.pixels();
-  const size_t further = inputs.gbuffer.samplePositions.size() - 1;
+void readLookups(const gl::Buffer& lookups, const SplitRays& ofPixels, size_t rayCount, Lookups& all) {
   const auto ofRays = lookups.readValues<glm::uvec4>(rayCount);
-  const auto groups = split.groups.readValues<uint32_t>(pixels);
+  const size_t pixels = ofPixels.groups.size();
   for (size_t pixel = 0; pixel < pixels; ++pixel) {
-    glm::u64vec4 sum = ofRays[pixel];
-    if (groups[pixel] != 0)
-      for (size_t i = 0; i < further; ++i) sum += ofRays[pixels + (groups[pixel] - 1) * further + i];
+    glm::u64vec4 sum(0);
+    ofPixels.forEachRay(pixel, [&](size_t ray) { sum += ofRays[ray]; });
     all.lights += sum.x;
     all.shadows += sum.y;
     all.steps += sum.z;
@@ -180,35 +174,56 @@ size_t mostPixels(const gl::Device& device) {
   return static_cast<size_t>(device.limits().storageBlockBytes) / bytes;
 }
 
+// What the passes that walk rays read and write, beside what only one of them does.
+class Walk {
+ public:
+  Walk(gl::Device& device, const ResolveInputs& inputs, const gl::Buffer& states)
+      : inputs_(inputs),
+        states_(states),
+        passBlock_(device, "resolve pass", sizeof(shared::ResolveParams)),
+        counters_(device, "resolve counters", sizeof(shared::ResolveCounters)) {}
+
+  // One dispatch, over `params.options.w` rays.
+  shared::ResolveCounters dispatch(const gl::Program& program, const shared::ResolveParams& params) {
+    passBlock_.writeValue(params);
+    counters_.clear();
+    bindRayInputs(inputs_);
+    passBlock_.bindUniform(UNIFORM_PASS);
+    states_.bindStorage(STORAGE_RAYS);
+    inputs_.split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
+    counters_.bindStorage(STORAGE_COUNTERS);
+    inputs_.lights.bind();
+    inputs_.shadows.bind();
+    inputs_.volumes.bind();
+    gl::dispatchLinear(program, static_cast<size_t>(params.options.w));
+    gl::storageBarrier();
+    return counters_.readValue<shared::ResolveCounters>();
+  }
+
+ private:
+  const ResolveInputs& inputs_;
+  const gl::Buffer& states_;
+  gl::Buffer passBlock_;
+  gl::Buffer counters_;
+};
+
 // Smoke that was marched for each block of 2 x 2 pixels of the window, where that was wanted.
 struct SmokeBlocks {
   gl::Buffer states;
   gl::BufferTexture texture;
 };
 
-SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, const gl::ShaderDefines& defines) {
+SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, const gl::ShaderDefines& defines,
+                        FrameStatistics& statistics) {
   const gl::Program& program = device.program({"pipelines/smoke_blocks.comp"}, defines);
   const size_t count = static_cast<size_t>((inputs.window.width + 1) / 2) *
                        static_cast<size_t>((inputs.window.height + 1) / 2);
   SmokeBlocks blocks;
   blocks.states = gl::Buffer(device, "smoke blocks", count * sizeof(shared::RayState));
   blocks.texture = gl::BufferTexture(device, blocks.states, gl::BufferFormat::RGBA32F);
-  gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
-  gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
   shared::ResolveParams params = resolveParams(inputs);
   params.options.w = static_cast<int>(count);
-  passBlock.writeValue(params);
-  counters.clear();
-  bindRayInputs(inputs);
-  passBlock.bindUniform(UNIFORM_PASS);
-  blocks.states.bindStorage(STORAGE_RAYS);
-  inputs.split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
-  counters.bindStorage(STORAGE_COUNTERS);
-  inputs.lights.bind();
-  inputs.shadows.bind();
-  inputs.volumes.bind();
-  gl::dispatchLinear(program, count);
-  gl::storageBarrier();
+  statistics.cutWalks += Walk(device, inputs, blocks.states).dispatch(program, params).boundHit;
   return blocks;
 }
 
@@ -222,7 +237,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
       resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
   SmokeBlocks blocks;
   if (inputs.quality.halfResolutionSmoke && !inputs.volumes.empty() && !frame.deep) {
-    blocks = marchBlocks(device, inputs, defines);
+    blocks = marchBlocks(device, inputs, defines, frame.statistics);
     defines.emplace_back("SMOKE_BLOCKS", "1");
   }
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
@@ -230,32 +245,20 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   if (frame.deep) defines.emplace_back("DEEP", "1");
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
-  gl::Buffer passBlock(device, "resolve pass", sizeof(shared::ResolveParams));
-  gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
+  Walk walk(device, inputs, rays);
   gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec4) : 0);
+  const SplitRays ofPixels{split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1};
 
-  const auto walk = [&](size_t count) {
+  const auto walkAll = [&](size_t count) {
     shared::ResolveParams params = resolveParams(inputs);
     params.options.w = static_cast<int>(count);
     int dispatches = 0;
     shared::ResolveCounters counted{};
     do {
       base::check(dispatches < maxResolveDispatches, "the resolve ends");
-      passBlock.writeValue(params);
-      counters.clear();
-      bindRayInputs(inputs);
-      passBlock.bindUniform(UNIFORM_PASS);
-      rays.bindStorage(STORAGE_RAYS);
-      split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
-      counters.bindStorage(STORAGE_COUNTERS);
       lookups.bindStorage(STORAGE_LOOKUPS);
-      inputs.lights.bind();
-      inputs.shadows.bind();
-      inputs.volumes.bind();
       blocks.texture.bind(TEXTURE_SMOKE_BLOCKS);
-      gl::dispatchLinear(program, count);
-      gl::storageBarrier();
-      counted = counters.readValue<shared::ResolveCounters>();
+      counted = walk.dispatch(program, params);
       frame.statistics.cutWalks += counted.boundHit;
       ++dispatches;
       params.options.x = 0;
@@ -263,14 +266,12 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
     frame.statistics.resolveDispatches += dispatches;
   };
   if (frame.deep)
-    recordDeep(device,
-               {inputs.window, split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1, walk},
-               inputs.deepLimits, *frame.deep);
+    recordDeep(device, {inputs.window, ofPixels, walkAll}, inputs.deepLimits, *frame.deep);
   else
-    walk(rayCount);
+    walkAll(rayCount);
   frame.statistics.splitPixels += split.count;
-  readRays(rays, split, rayCount, inputs, frame);
-  if (inputs.countLookups) readLookups(lookups, split, rayCount, inputs, frame.statistics.lookups);
+  readRays(rays, ofPixels, rayCount, inputs.window, frame);
+  if (inputs.countLookups) readLookups(lookups, ofPixels, rayCount, frame.statistics.lookups);
   return true;
 }
 
@@ -474,15 +475,9 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                                                    const std::vector<std::vector<glm::dvec3>>& seen,
                                                    const Quality& quality) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  std::vector<glm::dvec3> receivers;
-  std::vector<scene::Bounds> parts;
-  const double aspect = static_cast<double>(width) / height;
-  for (const auto& all : {scene::visibleParts(mediaBoxes_, camera, aspect), seen}) {
-    for (const std::vector<glm::dvec3>& part : all) {
-      receivers.insert(receivers.end(), part.begin(), part.end());
-      parts.push_back(scene::boundsOf(part));
-    }
-  }
+  scene::Seen all;
+  all.add(scene::visibleParts(mediaBoxes_, camera, static_cast<double>(width) / height));
+  all.add(seen);
   const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
   deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
                               .once = geometry_.hasShadowOnce(),
@@ -490,20 +485,20 @@ deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, 
                               .defines = geometry_.defines()};
   if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
   return deepshadow::Maps(
-      device_,
-      {.lights = scene_.lights,
-       .casters = casters,
-       .volumes = volumes_,
-       .receivers = receivers,
-       .castingPoints = castingPoints,
-       .plan = {shadowResolutions(scene_.lights, parts, camera, width, height, quality), quality.shadowError},
-       .budget = {.bytes = quality.shadowMemory,
-                  .lowerResolution = !quality.exactShadowResolution,
-                  .loosenError = !quality.exactShadowError},
-       .stepVoxels = quality.stepVoxels,
-       .lists = quality.lists,
-       .linkedSmokeNodes = quality.walkedSmokeNodes,
-       .linkedNodes = linkedNodes_});
+      device_, {.lights = scene_.lights,
+                .casters = casters,
+                .volumes = volumes_,
+                .receivers = all.points,
+                .castingPoints = castingPoints,
+                .plan = {shadowResolutions(scene_.lights, all.parts, camera, width, height, quality),
+                         quality.shadowError},
+                .budget = {.bytes = quality.shadowMemory,
+                           .lowerResolution = !quality.exactShadowResolution,
+                           .loosenError = !quality.exactShadowError},
+                .stepVoxels = quality.stepVoxels,
+                .lists = quality.lists,
+                .linkedSmokeNodes = quality.walkedSmokeNodes,
+                .linkedNodes = linkedNodes_});
 }
 
 }  // namespace sfumato::pipelines

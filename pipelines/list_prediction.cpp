@@ -11,7 +11,6 @@
 #include "pipelines/shadow_resolution.h"
 #include "pipelines/tiles.h"
 #include "scene/camera_view.h"
-#include "scene/default_set.h"
 #include "scene/light_faces.h"
 #include "scene/visible_hull.h"
 #include "shaders/shared/deepshadow.h"
@@ -164,30 +163,10 @@ class Predictor {
   std::vector<const scene::Instance*> casters_;
 };
 
-glm::dmat4 boxOf(const scene::Bounds& bounds) {
-  glm::dmat4 worldFromUnit(1.0);
-  for (int axis = 0; axis < 3; ++axis) worldFromUnit[axis][axis] = bounds.high[axis] - bounds.low[axis];
-  worldFromUnit[3] = glm::dvec4(bounds.low, 1.0);
-  return worldFromUnit;
-}
-
-// What is seen, as points whose hull holds it and as boxes around its parts: pipelines/linked_lists_gpu has
-// the same of every triangle.
-struct Seen {
-  std::vector<dvec3> points;
-  std::vector<scene::Bounds> parts;
-
-  void add(const std::vector<std::vector<dvec3>>& all) {
-    for (const std::vector<dvec3>& part : all) {
-      points.insert(points.end(), part.begin(), part.end());
-      parts.push_back(scene::boundsOf(part));
-    }
-  }
-};
-
-Seen seenOf(const scene::Scene& scene, const std::vector<glm::dmat4>& mediaBoxes, const scene::Camera& camera,
-            double aspect) {
-  Seen seen;
+// As pipelines/linked_lists_gpu has it, but not of every triangle of large scenes.
+scene::Seen seenOf(const scene::Scene& scene, const std::vector<glm::dmat4>& mediaBoxes,
+                   const scene::Camera& camera, double aspect) {
+  scene::Seen seen;
   seen.add(scene::visibleParts(mediaBoxes, camera, aspect));
   size_t triangles = 0;
   for (const scene::Instance& instance : scene.instances)
@@ -197,7 +176,8 @@ Seen seenOf(const scene::Scene& scene, const std::vector<glm::dmat4>& mediaBoxes
     return seen;
   }
   std::vector<glm::dmat4> boxes = scene::boundingBoxes(scene);
-  if (boxes.size() > mostBoxes) boxes = {boxOf(scene::boundsOf(scene::boundingPoints(scene, {})))};
+  if (boxes.size() > mostBoxes)
+    boxes = {scene::worldFromUnit(scene::boundsOf(scene::boundingPoints(scene, {})))};
   seen.add(scene::visibleParts(boxes, camera, aspect));
   return seen;
 }
@@ -222,7 +202,7 @@ ListPrediction predictLists(const scene::Scene& scene, std::span<const volumes::
   const Predictor predictor(scene, quality);
   std::vector<glm::dmat4> boxes;
   for (const volumes::Medium& medium : media) boxes.push_back(volumes::worldFromUnit(medium));
-  Seen seen = seenOf(scene, boxes, camera, static_cast<double>(width) / height);
+  scene::Seen seen = seenOf(scene, boxes, camera, static_cast<double>(width) / height);
   if (seen.parts.size() * scene.lights.size() > mostLitParts) seen.parts = {scene::boundsOf(seen.points)};
   const std::vector<dvec3> casting = scene::boundingPoints(scene, boxes);
   const std::vector<int> resolutions =

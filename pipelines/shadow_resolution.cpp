@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "deepshadow/shadow_faces.h"
 #include "lights/light_reach.h"
+#include "scene/light_faces.h"
 #include "scene/visible_hull.h"
 
 namespace sfumato::pipelines {
@@ -63,13 +63,6 @@ dvec2 onImage(const dvec3& pWorld, const scene::Camera& camera, const glm::dmat4
   return dvec2(p) / (2 * std::tan(camera.yfov / 2) * std::max(-p.z, 1e-12));
 }
 
-glm::dmat4 worldFromUnit(const Bounds& box) {
-  glm::dmat4 result(1.0);
-  for (int axis = 0; axis < 3; ++axis) result[axis][axis] = std::max(box.high[axis] - box.low[axis], 1e-9);
-  result[3] = glm::dvec4(box.low, 1);
-  return result;
-}
-
 // Corners of what the light may reach of the parts, cut to the camera's view; nothing where it reaches none
 // of them.
 std::optional<std::vector<dvec3>> seenAndLit(const lights::Light& light, std::span<const Bounds> parts,
@@ -80,7 +73,8 @@ std::optional<std::vector<dvec3>> seenAndLit(const lights::Light& light, std::sp
     const Bounds lit = litPart(light, part);
     if (lit.empty()) continue;
     if (!points) points.emplace();
-    const auto seen = scene::visiblePoints({}, {worldFromUnit(lit)}, camera, aspect);
+    const Bounds solid{lit.low, glm::max(lit.high, lit.low + 1e-9)};
+    const auto seen = scene::visiblePoints({}, {scene::worldFromUnit(solid)}, camera, aspect);
     points->insert(points->end(), seen.begin(), seen.end());
   }
   return points;
@@ -109,8 +103,8 @@ double shareOfFace(const lights::Light& light, const std::vector<dvec3>& points)
   double farthest = 1;  // cosine
   for (const dvec3& p : points)
     farthest = std::min(farthest, glm::dot(glm::normalize(p - light.position), middle));
-  const bool cone = light.type == lights::LightType::Spot && light.outerCone <= deepshadow::widestCone;
-  const double share = std::acos(std::max(farthest, -1.0)) / (cone ? light.outerCone : M_PI_4);
+  const double halfFace = scene::isNarrowSpot(light) ? light.outerCone : M_PI_4;
+  const double share = std::acos(std::max(farthest, -1.0)) / halfFace;
   return share < 1 ? share : 1;  // also where it is no number: a point at the light
 }
 

@@ -7,7 +7,7 @@
 
 #include "lights/light.h"
 #include "pipelines/quality.h"
-#include "scene/default_set.h"
+#include "scene/bounds.h"
 #include "scene/scene.h"
 
 namespace sfumato::pipelines {

@@ -26,12 +26,6 @@ Bounds orAMetre(const Bounds& bounds) {
   return bounds.empty() || bounds.radius() == 0 ? Bounds{dvec3(-0.5), dvec3(0.5)} : bounds;
 }
 
-// The corner of a box: bit 0 of `which` chooses the high x, bit 1 y, bit 2 z.
-dvec3 corner(const Bounds& bounds, int which) {
-  return {which & 1 ? bounds.high.x : bounds.low.x, which & 2 ? bounds.high.y : bounds.low.y,
-          which & 4 ? bounds.high.z : bounds.low.z};
-}
-
 // Sums of density along an axis, of each column that holds any.
 std::vector<double> columns(const volumes::DensityGrid& grid, int axis) {
   const int across = (axis + 1) % 3;
@@ -122,23 +116,6 @@ Light directionalLight(const char* name, const dvec3& towardsLight, const dvec3&
 }
 
 }  // namespace
-
-Bounds boundsOf(std::span<const dvec3> points) {
-  Bounds bounds;
-  for (const dvec3& p : points) {
-    bounds.low = glm::min(bounds.low, p);
-    bounds.high = glm::max(bounds.high, p);
-  }
-  return bounds;
-}
-
-Bounds boundsOf(std::span<const volumes::Medium> media) {
-  std::vector<dvec3> corners;
-  for (const volumes::Medium& medium : media)
-    for (int i = 0; i < 8; ++i)
-      corners.emplace_back(volumes::worldFromUnit(medium) * glm::dvec4(corner({dvec3(0), dvec3(1)}, i), 1));
-  return boundsOf(corners);
-}
 
 Camera framingCamera(const Bounds& bounds, double yfov, double aspect) {
   constexpr double room = 0.88;  // of the picture is the box's

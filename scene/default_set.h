@@ -6,23 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "scene/bounds.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
 
 namespace sfumato::scene {
-
-// An axis-aligned box in the world.
-struct Bounds {
-  glm::dvec3 low{infinity};
-  glm::dvec3 high{-infinity};
-
-  bool empty() const { return !(low.x <= high.x); }
-  glm::dvec3 centre() const { return (low + high) * 0.5; }
-  double radius() const { return glm::length(high - low) * 0.5; }  // of the sphere around it
-};
-
-Bounds boundsOf(std::span<const glm::dvec3> points);
-Bounds boundsOf(std::span<const volumes::Medium> media);  // of their boxes
 
 // A perspective camera in front of the box (towards +Z) and a little above, as near as it can be with the
 // whole box in a picture of the given aspect (width / height) and some room around it. yfov in radians. A box

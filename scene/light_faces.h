@@ -10,6 +10,9 @@
 
 namespace sfumato::scene {
 
+// Whether a spot's cone is narrow enough for one face.
+bool isNarrowSpot(const lights::Light& light);
+
 // The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
 std::vector<deepshadow::FaceProjection> facesOf(const lights::Light& light, int resolution,
                                                 std::span<const glm::dvec3> receivers,

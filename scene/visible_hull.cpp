@@ -108,12 +108,15 @@ std::vector<dvec3> visiblePoints(const Scene& scene, const std::vector<dmat4>& w
   return points;
 }
 
+void Seen::add(const std::vector<std::vector<dvec3>>& visibleParts) {
+  for (const std::vector<dvec3>& part : visibleParts) {
+    points.insert(points.end(), part.begin(), part.end());
+    parts.push_back(boundsOf(part));
+  }
+}
+
 std::vector<dmat4> boundingBoxes(const Scene& scene) {
-  struct Box {
-    dvec3 low{infinity};
-    dvec3 high{-infinity};
-  };
-  std::vector<Box> ofMeshes(scene.meshes.size());
+  std::vector<Bounds> ofMeshes(scene.meshes.size());
   for (size_t i = 0; i < ofMeshes.size(); ++i) {
     for (const Vertex& vertex : scene.meshes[i].vertices) {
       ofMeshes[i].low = glm::min(ofMeshes[i].low, dvec3(vertex.position));
@@ -122,12 +125,8 @@ std::vector<dmat4> boundingBoxes(const Scene& scene) {
   }
   std::vector<dmat4> boxes;
   for (const Instance& instance : scene.instances) {
-    const Box& box = ofMeshes[static_cast<size_t>(instance.mesh)];
-    if (box.low.x > box.high.x) continue;
-    dmat4 objectFromUnit(1.0);
-    for (int axis = 0; axis < 3; ++axis) objectFromUnit[axis][axis] = box.high[axis] - box.low[axis];
-    objectFromUnit[3] = dvec4(box.low, 1.0);
-    boxes.push_back(instance.worldFromObject * objectFromUnit);
+    const Bounds& box = ofMeshes[static_cast<size_t>(instance.mesh)];
+    if (!box.empty()) boxes.push_back(instance.worldFromObject * worldFromUnit(box));
   }
   return boxes;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scene/bounds.h"
 #include "scene/scene.h"
 
 namespace sfumato::scene {
@@ -16,6 +17,14 @@ std::vector<std::vector<glm::dvec3>> visibleParts(const std::vector<glm::dmat4>&
 // All of them together. Their hull holds everything that is seen.
 std::vector<glm::dvec3> visiblePoints(const Scene& scene, const std::vector<glm::dmat4>& worldFromUnit,
                                       const Camera& camera, double aspect);
+
+// What is seen, gathered from parts of it.
+struct Seen {
+  std::vector<glm::dvec3> points;  // their hull holds it
+  std::vector<Bounds> parts;       // around each
+
+  void add(const std::vector<std::vector<glm::dvec3>>& visibleParts);
+};
 
 // Boxes around every mesh instance, as images of the unit cube; flat where the mesh is.
 std::vector<glm::dmat4> boundingBoxes(const Scene& scene);

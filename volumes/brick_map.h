@@ -20,12 +20,7 @@ struct BrickMap {
   size_t filled = 0;
 
   // There is a margin of one brick around: coordinates from -1 to count.
-  size_t place(const glm::ivec3& brick) const {
-    const glm::ivec3 size = count + 2, p = brick + 1;
-    return (static_cast<size_t>(p.z) * static_cast<size_t>(size.y) + static_cast<size_t>(p.y)) *
-               static_cast<size_t>(size.x) +
-           static_cast<size_t>(p.x);
-  }
+  size_t place(const glm::ivec3& brick) const { return placeIn(count + 2, brick + 1); }
 };
 
 // Bricks along each axis that hold every voxel.

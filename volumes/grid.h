@@ -11,6 +11,13 @@
 
 namespace sfumato::volumes {
 
+// The number of place p in a box, in order of x first, then y, then z.
+inline size_t placeIn(const glm::ivec3& size, const glm::ivec3& p) {
+  return (static_cast<size_t>(p.z) * static_cast<size_t>(size.y) + static_cast<size_t>(p.y)) *
+             static_cast<size_t>(size.x) +
+         static_cast<size_t>(p.x);
+}
+
 // The value of voxel (i,j,k) stands at index position (i,j,k), trilinear between; outside the box it is 0.
 // A margin of one zero voxel on every side keeps that true up to the box. Values are finite and >= 0; in
 // order of x first, then y, then z.
@@ -36,10 +43,10 @@ struct DensityGrid {
   }
 
   // Places of a voxel, counted from the first one: in `values`, of its brick in the map, and in that brick.
-  size_t valueIndex(int x, int y, int z) const { return place({x, y, z}, size); }
-  size_t brickIndex(const glm::ivec3& voxel) const { return place(voxel / brickSide, brickCount()); }
+  size_t valueIndex(int x, int y, int z) const { return placeIn(size, {x, y, z}); }
+  size_t brickIndex(const glm::ivec3& voxel) const { return placeIn(brickCount(), voxel / brickSide); }
   static size_t indexInBrick(const glm::ivec3& voxel) {
-    return place(voxel % brickSide, glm::ivec3(brickSide));
+    return placeIn(glm::ivec3(brickSide), voxel % brickSide);
   }
   glm::ivec3 brickCount() const { return (size + brickSide - 1) / brickSide; }
   static constexpr size_t valuesInBrick = size_t{brickSide} * brickSide * brickSide;
@@ -48,13 +55,6 @@ struct DensityGrid {
     if (dense()) return values[valueIndex(voxel.x, voxel.y, voxel.z)];
     const uint32_t brick = bricks.map[brickIndex(voxel)];
     return brick == 0 ? 0.f : bricks.values[(brick - 1) * valuesInBrick + indexInBrick(voxel)];
-  }
-
- private:
-  static size_t place(const glm::ivec3& p, const glm::ivec3& size) {
-    return (static_cast<size_t>(p.z) * static_cast<size_t>(size.y) + static_cast<size_t>(p.y)) *
-               static_cast<size_t>(size.x) +
-           static_cast<size_t>(p.x);
   }
 };
 

@@ -140,9 +140,7 @@ gl::Texture uploadBricks(gl::Device& device, const Upload& upload) {
         for (int y = 0; y < stored; ++y)
           for (int x = 0; x < stored; ++x) {
             const glm::ivec3 voxel = glm::min(from + glm::ivec3(x, y, z), grid.size - 1);
-            values[(static_cast<size_t>(z) * static_cast<size_t>(layer.y) + static_cast<size_t>(to.y + y)) *
-                       static_cast<size_t>(layer.x) +
-                   static_cast<size_t>(to.x + x)] = grid.value(voxel);
+            values[placeIn(layer, {to.x + x, to.y + y, z})] = grid.value(voxel);
           }
     });
     writeValues(texture, grid, values, static_cast<int>(first / bricksInLayer) * stored, stored);
@@ -153,10 +151,7 @@ gl::Texture uploadBricks(gl::Device& device, const Upload& upload) {
 // What the map says of a brick: see shaders/shared/grids.h.
 void writeMap(const Upload& upload, const glm::ivec3& size, std::vector<uint32_t>& entries) {
   const auto entryAt = [&](const glm::ivec3& brick) -> uint32_t& {
-    const glm::ivec3 p = upload.first + brick;
-    return entries[(static_cast<size_t>(p.z) * static_cast<size_t>(size.y) + static_cast<size_t>(p.y)) *
-                       static_cast<size_t>(size.x) +
-                   static_cast<size_t>(p.x)];
+    return entries[placeIn(size, upload.first + brick)];
   };
   for (int z = 0; z < upload.map.count.z; ++z)
     for (int y = 0; y < upload.map.count.y; ++y)

@@ -21,24 +21,6 @@ TEST(Strategy, NamesAreReadAsTheyAreWritten) {
   EXPECT_THROW(onOverflowNamed(""), base::Error);
 }
 
-TEST(Strategy, SizesAreReadWithTheirUnits) {
-  EXPECT_EQ(bytesNamed("0", "--x"), 0u);
-  EXPECT_EQ(bytesNamed("1234", "--x"), 1234u);
-  EXPECT_EQ(bytesNamed("64K", "--x"), 65536u);
-  EXPECT_EQ(bytesNamed("256M", "--x"), size_t{256} << 20);
-  EXPECT_EQ(bytesNamed("3G", "--x"), size_t{3} << 30);
-  for (const char* text :
-       {"", "M", "-1", "1.5G", "10MB", "1 M", "12T", "99999999999999999999", "99999999999G"}) {
-    try {
-      bytesNamed(text, "--list-memory");
-      FAIL() << text;
-    } catch (const base::Error& error) {
-      EXPECT_EQ(error.exitCode, base::ExitCode::Usage);
-      EXPECT_TRUE(std::string(error.what()).starts_with("--list-memory"));
-    }
-  }
-}
-
 TEST(Strategy, FiguresOfWindowsAreJoined) {
   ListStatistics a{.cells = 3, .demand = 10, .longest = 4, .windows = 1, .bytes = 100};
   a.lengths[2] = 3;
