@@ -23,6 +23,38 @@ void enable(GLenum capability, bool on) {
     glDisable(capability);
 }
 
+GLenum nameOf(Compare compare) {
+  constexpr GLenum names[] = {GL_NEVER, GL_ALWAYS, GL_LESS, GL_LEQUAL, GL_EQUAL, GL_GREATER};
+  return names[static_cast<int>(compare)];
+}
+
+GLenum nameOf(StencilChange change) {
+  constexpr GLenum names[] = {GL_KEEP, GL_ZERO, GL_REPLACE, GL_DECR};
+  return names[static_cast<int>(change)];
+}
+
+void setBlend(Blend blend) {
+  enable(GL_BLEND, blend != Blend::None);
+  glBlendEquation(blend == Blend::Minimum ? GL_MIN : GL_FUNC_ADD);
+  if (blend == Blend::Multiply)
+    glBlendFunc(GL_DST_COLOR, GL_ZERO);
+  else
+    glBlendFunc(GL_ONE, GL_ONE);
+}
+
+void setStencil(const std::optional<StencilTest>& stencil) {
+  enable(GL_STENCIL_TEST, stencil.has_value());
+  if (!stencil) return;
+  glStencilFunc(nameOf(stencil->compare), stencil->reference, stencil->mask);
+  glStencilOp(nameOf(stencil->failed), nameOf(stencil->failed), nameOf(stencil->passed));
+  glStencilMask(0xff);
+}
+
+void setSampleMask(const std::optional<unsigned>& mask) {
+  enable(GL_SAMPLE_MASK, mask.has_value());
+  if (mask) glSampleMaski(0, *mask);
+}
+
 const void* byteOffset(size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }
@@ -34,22 +66,22 @@ void setDrawState(const DrawState& state) {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, state.target->name());
   glViewport(state.viewport.x, state.viewport.y, state.viewport.z, state.viewport.w);
   enable(GL_DEPTH_TEST, state.depthTest);
-  glDepthFunc(GL_LESS);
-  glDepthMask(state.depthTest ? GL_TRUE : GL_FALSE);
+  glDepthFunc(nameOf(state.depthCompare));
+  glDepthMask(state.depthTest && state.depthWrite ? GL_TRUE : GL_FALSE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   enable(GL_DEPTH_CLAMP, state.depthClamp);
   glFrontFace(GL_CCW);
   setCull(state.cull);
-  enable(GL_BLEND, state.blend == Blend::Minimum);
-  glBlendEquation(GL_MIN);
+  setBlend(state.blend);
   enable(GL_SCISSOR_TEST, state.scissor.has_value());
   if (state.scissor) glScissor(state.scissor->x, state.scissor->y, state.scissor->z, state.scissor->w);
-  glDisable(GL_STENCIL_TEST);
+  setStencil(state.stencil);
+  setSampleMask(state.sampleMask);
 }
 
 void setCull(Cull cull) {
-  enable(GL_CULL_FACE, cull == Cull::Back);
-  glCullFace(GL_BACK);
+  enable(GL_CULL_FACE, cull != Cull::None);
+  glCullFace(cull == Cull::Front ? GL_FRONT : GL_BACK);
 }
 
 VertexArray::VertexArray(Device& device, const Buffer& vertices, size_t vertexBytes,

@@ -14,18 +14,34 @@ namespace sfumato::gl {
 
 void deleteVertexArray(unsigned name);
 
-enum class Cull { None, Back };
-enum class Blend { None, Minimum };  // Minimum keeps the smaller of what is there and what is drawn
+enum class Cull { None, Back, Front };
+// What becomes of what is there and what is drawn: the latter, the smaller, their sum, their product.
+enum class Blend { None, Minimum, Add, Multiply };
+enum class Compare { Never, Always, Less, LessEqual, Equal, Greater };
+enum class StencilChange { Keep, Zero, Replace, Decrement };
+
+// A fragment passes where (reference & mask) compares so to (what is there & mask).
+struct StencilTest {
+  Compare compare = Compare::Always;
+  int reference = 0;
+  unsigned mask = 0xff;
+  StencilChange passed = StencilChange::Keep;
+  StencilChange failed = StencilChange::Keep;  // this test, or the depth test after it
+};
 
 struct DrawState {
   const Program* program = nullptr;
   const Framebuffer* target = nullptr;
   glm::ivec4 viewport{0};             // x, y, width, height
   std::optional<glm::ivec4> scissor;  // fragments outside x, y, width, height are not made
-  bool depthTest = false;             // less; writes depth as well
+  bool depthTest = false;
+  Compare depthCompare = Compare::Less;
+  bool depthWrite = true;  // where it is tested
   bool depthClamp = false;
   Cull cull = Cull::None;
   Blend blend = Blend::None;
+  std::optional<StencilTest> stencil;
+  std::optional<unsigned> sampleMask;  // samples of a pixel that may be written to; none: all
 };
 
 // Makes the state current for the draws that follow.

@@ -30,6 +30,8 @@ struct FormatTraits {
 
 FormatTraits traits(Format format) {
   switch (format) {
+    case Format::R8:
+      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
     case Format::R16F:
       return {GL_R16F, GL_RED, GL_HALF_FLOAT, 2};
     case Format::R32F:
@@ -38,16 +40,24 @@ FormatTraits traits(Format format) {
       return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
     case Format::R32I:
       return {GL_R32I, GL_RED_INTEGER, GL_INT, 4};
+    case Format::RG32UI:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
     case Format::RGBA8:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case Format::SRGB8A8:
       return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::RGB10A2:
+      return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4};
     case Format::RGBA16F:
       return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8};
+    case Format::RGBA32F:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
     case Format::RGBA32UI:
       return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
     case Format::Depth32F:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+    case Format::Depth32FStencil8:
+      return {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8};
   }
   return {};
 }
@@ -233,7 +243,9 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture*
   }
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   if (depth != nullptr) {
-    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+    const GLenum place =
+        depth->format() == Format::Depth32FStencil8 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, place, depth->name(), 0);
     size_ = depth->size();
   }
   base::check(glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE,
@@ -247,6 +259,7 @@ void openMasks(const Framebuffer& framebuffer) {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
+  glStencilMask(0xff);
   glDisable(GL_SCISSOR_TEST);
 }
 
@@ -265,6 +278,11 @@ void Framebuffer::clearColour(int attachment, glm::uvec4 value) const {
 void Framebuffer::clearDepth(float value) const {
   openMasks(*this);
   glClearBufferfv(GL_DEPTH, 0, &value);
+}
+
+void Framebuffer::clearStencil(int value) const {
+  openMasks(*this);
+  glClearBufferiv(GL_STENCIL, 0, &value);
 }
 
 std::vector<glm::vec2> Framebuffer::samplePositions() const {

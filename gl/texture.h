@@ -18,7 +18,22 @@ namespace sfumato::gl {
 void deleteTexture(unsigned name);
 void deleteFramebuffer(unsigned name);
 
-enum class Format { R16F, R32F, R32UI, R32I, RGBA8, SRGB8A8, RGBA16F, RGBA32UI, Depth32F };
+enum class Format {
+  R8,
+  R16F,
+  R32F,
+  R32UI,
+  R32I,
+  RG32UI,
+  RGBA8,
+  SRGB8A8,
+  RGB10A2,
+  RGBA16F,
+  RGBA32F,
+  RGBA32UI,
+  Depth32F,
+  Depth32FStencil8
+};
 enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32F };
 enum class Filter { Nearest, Linear };
 using scene::Minify;
@@ -47,6 +62,8 @@ class Texture {
 
   unsigned name() const { return object_.name(); }
   glm::ivec3 size() const { return size_; }
+  Format format() const { return format_; }
+  size_t bytes() const { return bytes_; }
   void bind(unsigned unit) const;
   // For image loads, stores and atomics of shaders, in the texture's own format.
   void bindImage(unsigned unit) const;
@@ -87,7 +104,7 @@ class Framebuffer {
   // `samples`: places in a pixel where coverage is told, 1: its centre. `layers`: for gl_Layer, 0: not
   // layered.
   explicit Framebuffer(glm::ivec2 size, int samples = 1, int layers = 0);
-  // Colour attachments in order, and a depth buffer or nullptr.
+  // Colour attachments in order, and a depth buffer, with a stencil or without, or nullptr.
   Framebuffer(std::span<const Texture* const> colours, const Texture* depth);
 
   unsigned name() const { return object_.name(); }
@@ -95,6 +112,7 @@ class Framebuffer {
   void clearColour(int attachment, glm::vec4 value) const;
   void clearColour(int attachment, glm::uvec4 value) const;
   void clearDepth(float value) const;
+  void clearStencil(int value) const;
   // Where the samples of a pixel stand in it, in [0, 1]^2 from its lower left corner.
   std::vector<glm::vec2> samplePositions() const;
 
