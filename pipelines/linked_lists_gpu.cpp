@@ -9,10 +9,8 @@
 #include "pipelines/aovs_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
-#include "pipelines/shadow_resolution.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
-#include "scene/visible_hull.h"
 #include "shaders/shared/aovs.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/resolve.h"
@@ -32,15 +30,8 @@ std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
   return faces;
 }
 
-gl::ShaderDefines resolveDefines(const volumes::VolumesGpu& volumes, const GeometryGpu& geometry,
-                                 size_t samples, int scatteringOctaves) {
-  gl::ShaderDefines defines = {{"SAMPLES", std::to_string(samples)}};
-  if (geometry.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
-  if (volumes.empty()) return defines;
-  defines.emplace_back("SMOKE", "1");
-  if (volumes.burning()) defines.emplace_back("FIRE", "1");
-  if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
-  return gl::joined(defines, volumes.defines());
+gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, int scatteringOctaves) {
+  return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(scatteringOctaves));
 }
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -64,8 +55,7 @@ struct ResolveInputs {
   const Split& split;
   const lights::LightLists& lights;
   const deepshadow::Maps& shadows;
-  const volumes::VolumesGpu& volumes;
-  const GeometryGpu& geometry;
+  const SceneGpu& scene;
   const Quality& quality;
   Tile window;
   bool countLookups;
@@ -194,7 +184,7 @@ class Walk {
     counters_.bindStorage(STORAGE_COUNTERS);
     inputs_.lights.bind();
     inputs_.shadows.bind();
-    inputs_.volumes.bind();
+    inputs_.scene.volumes().bind();
     gl::dispatchLinear(program, static_cast<size_t>(params.options.w));
     gl::storageBarrier();
     return counters_.readValue<shared::ResolveCounters>();
@@ -233,10 +223,9 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  gl::ShaderDefines defines =
-      resolveDefines(inputs.volumes, inputs.geometry, samples, inputs.quality.scatteringOctaves);
+  gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality.scatteringOctaves);
   SmokeBlocks blocks;
-  if (inputs.quality.halfResolutionSmoke && !inputs.volumes.empty() && !frame.deep) {
+  if (inputs.quality.halfResolutionSmoke && !inputs.scene.volumes().empty() && !frame.deep) {
     blocks = marchBlocks(device, inputs, defines, frame.statistics);
     defines.emplace_back("SMOKE_BLOCKS", "1");
   }
@@ -277,10 +266,8 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
 
 // What all tiles of a frame are drawn from.
 struct TileInputs {
-  const std::vector<lights::Light>& lights;
+  const SceneGpu& scene;
   const deepshadow::Maps& shadows;
-  const volumes::VolumesGpu& volumes;
-  const GeometryGpu& geometry;
   const Quality& quality;
   shared::ViewParams view;  // of the whole image
   int width = 0;
@@ -297,7 +284,7 @@ class TilePainter {
         inputs_(inputs),
         faces_(shadowFacesOf(inputs.shadows)),
         hasListedLights_(std::any_of(
-            inputs.lights.begin(), inputs.lights.end(),
+            inputs.scene.lights().begin(), inputs.scene.lights().end(),
             [](const lights::Light& light) { return light.type != lights::LightType::Directional; })),
         windowPixels_(std::min(windowPixels, mostPixels(device))),
         view_(device, "camera view", sizeof(shared::ViewParams)),
@@ -310,8 +297,8 @@ class TilePainter {
       const int samples =
           std::clamp(inputs_.quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
       const bool baseColour = frame_.aovs.contains(Aov::Albedo);
-      return drawGBuffer(device_,
-                         {inputs_.geometry, view_, inputs_.width, inputs_.height, samples, tile, baseColour});
+      return drawGBuffer(device_, {inputs_.scene.geometry(), view_, inputs_.width, inputs_.height, samples,
+                                   tile, baseColour});
     }();
     drawWindow(gbuffer, tile);
     ++frame_.statistics.tiles;
@@ -333,8 +320,9 @@ class TilePainter {
     useView(gbuffer.tile, window);
     const auto surfaces = [&] {
       const Profiler::Scope time(device_.profiler(), "surface lists");
-      const SurfaceListInputs of{inputs_.geometry,     view_, gbuffer, inputs_.width, inputs_.height, window,
-                                 inputs_.quality.lists};
+      const SurfaceListInputs of{
+          inputs_.scene.geometry(), view_, gbuffer, inputs_.width, inputs_.height, window,
+          inputs_.quality.lists};
       return smallest ? std::optional(buildSurfaceLists(device_, of)) : tryBuildSurfaceLists(device_, of);
     }();
     if (!surfaces) return false;
@@ -346,9 +334,9 @@ class TilePainter {
       const Profiler::Scope time(device_.profiler(), "light lists");
       std::optional<gl::Buffer> receivers;
       if (hasListedLights_)
-        receivers = receiverDepths(device_, {view_, gbuffer, surfaces->lists, split.groups, inputs_.volumes,
-                                             inputs_.width, inputs_.height, window});
-      const lights::LightListInputs of{inputs_.lights,
+        receivers = receiverDepths(device_, {view_, gbuffer, surfaces->lists, split.groups,
+                                             inputs_.scene.volumes(), inputs_.width, inputs_.height, window});
+      const lights::LightListInputs of{inputs_.scene.lights(),
                                        faces_,
                                        view_,
                                        inputs_.width,
@@ -363,8 +351,8 @@ class TilePainter {
     if (!lightLists) return false;
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
-                 {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.volumes,
-                  inputs_.geometry, inputs_.quality, window, inputs_.countLookups, inputs_.deepLimits},
+                 {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.scene,
+                  inputs_.quality, window, inputs_.countLookups, inputs_.deepLimits},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -399,49 +387,21 @@ class TilePainter {
   Frame& frame_;
 };
 
-// The camera's view with clip planes close around the surfaces that are seen: it shows the same, and the
-// depth test tells more depths apart. `seen`: points whose hull holds those surfaces.
-shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
-                             const std::vector<std::vector<glm::dvec3>>& seen) {
-  shared::ViewParams view = scene::cameraView(camera, width, height);
-  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
-  double nearest = scene::infinity;
-  double farthest = 0;
-  for (const std::vector<glm::dvec3>& part : seen) {
-    for (const glm::dvec3& p : part) {
-      const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
-      nearest = std::min(nearest, depth);
-      farthest = std::max(farthest, depth);
-    }
-  }
-  if (nearest > farthest) return view;
-  constexpr double slack = 1e-3;
-  constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
-  scene::Camera tight = camera;
-  tight.nearDistance = std::max({camera.nearDistance, (1 - slack) * nearest, leastRatio * farthest});
-  tight.farDistance = std::min(camera.farDistance, (1 + slack) * farthest);
-  view.clipFromView = scene::cameraView(tight, width, height).clipFromView;
-  return view;
-}
-
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
                                          std::span<const volumes::Medium> media,
                                          const volumes::GridOptions& gridOptions)
-    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media, gridOptions) {
-  for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
+    : scene_(device, scene, media, gridOptions) {
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
-  device.program({"pipelines/resolve.comp"},
-                 resolveDefines(volumes_, geometry_, static_cast<size_t>(samples), 0));
+  device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), 0));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
-  const double aspect = static_cast<double>(width) / height;
-  const auto seen = scene::visibleParts(scene_, camera, aspect);
-  const deepshadow::Maps shadows = buildShadows(camera, width, height, seen, quality);
+  const FrameView view = viewOf(scene_.scene(), camera, width, height);
+  const deepshadow::Maps shadows = scene_.buildShadows(view, quality, linkedNodes_);
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
   const DeepLimits deepLimits = withinMemory(options.deepLimits);
   if (options.deep) {
@@ -450,55 +410,19 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   }
   for (const size_t light : options.deepShadows)
     frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
-  const TileInputs inputs{scene_.lights, shadows, volumes_,
-                          geometry_,     quality, tightView(camera, width, height, seen),
-                          width,         height,  options.countLookups,
+  const TileInputs inputs{scene_,    shadows, quality, view.params, width, height, options.countLookups,
                           deepLimits};
-  TilePainter painter(device_, inputs, options.windowPixels, frame);
+  TilePainter painter(scene_.device(), inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {
     painter.draw(tile);
     options.onTile();
   }
   frame.statistics.shadows = shadows.lights();
-  frame.statistics.shadowMaps = {.error = shadows.plan().error,
-                                 .lowered = shadows.lowered(),
-                                 .bytes = shadows.bytes(),
-                                 .predictedBytes = shadows.predictedBytes(),
-                                 .budgetBytes = shadows.budgetBytes()};
+  frame.statistics.shadowMaps = figuresOf(shadows);
   if (shadows.linkedNodes() > 0) linkedNodes_ = shadows.linkedNodes();
   frame.statistics.cutWalks += shadows.cutMarches();
-  frame.statistics.triangles = geometry_.triangles();
+  frame.statistics.triangles = scene_.geometry().triangles();
   return frame;
-}
-
-deepshadow::Maps LinkedListsPipeline::buildShadows(const scene::Camera& camera, int width, int height,
-                                                   const std::vector<std::vector<glm::dvec3>>& seen,
-                                                   const Quality& quality) const {
-  const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  scene::Seen all;
-  all.add(scene::visibleParts(mediaBoxes_, camera, static_cast<double>(width) / height));
-  all.add(seen);
-  const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
-  deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
-                              .once = geometry_.hasShadowOnce(),
-                              .notSelf = geometry_.hasNotSelf(),
-                              .defines = geometry_.defines()};
-  if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
-  return deepshadow::Maps(
-      device_, {.lights = scene_.lights,
-                .casters = casters,
-                .volumes = volumes_,
-                .receivers = all.points,
-                .castingPoints = castingPoints,
-                .plan = {shadowResolutions(scene_.lights, all.parts, camera, width, height, quality),
-                         quality.shadowError},
-                .budget = {.bytes = quality.shadowMemory,
-                           .lowerResolution = !quality.exactShadowResolution,
-                           .loosenError = !quality.exactShadowError},
-                .stepVoxels = quality.stepVoxels,
-                .lists = quality.lists,
-                .linkedSmokeNodes = quality.walkedSmokeNodes,
-                .linkedNodes = linkedNodes_});
 }
 
 }  // namespace sfumato::pipelines

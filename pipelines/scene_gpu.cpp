@@ -1,0 +1,101 @@
+#include "pipelines/scene_gpu.h"
+
+#include <algorithm>
+
+#include "pipelines/shadow_resolution.h"
+#include "scene/camera_view.h"
+#include "scene/visible_hull.h"
+
+namespace sfumato::pipelines {
+
+using gl::Profiler;
+
+namespace {
+
+shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
+                             const std::vector<std::vector<glm::dvec3>>& seen) {
+  shared::ViewParams view = scene::cameraView(camera, width, height);
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  double nearest = scene::infinity;
+  double farthest = 0;
+  for (const std::vector<glm::dvec3>& part : seen) {
+    for (const glm::dvec3& p : part) {
+      const double depth = -(viewFromWorld * glm::dvec4(p, 1)).z;
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
+  }
+  if (nearest > farthest) return view;
+  constexpr double slack = 1e-3;
+  constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
+  scene::Camera tight = camera;
+  tight.nearDistance = std::max({camera.nearDistance, (1 - slack) * nearest, leastRatio * farthest});
+  tight.farDistance = std::min(camera.farDistance, (1 + slack) * farthest);
+  view.clipFromView = scene::cameraView(tight, width, height).clipFromView;
+  return view;
+}
+
+}  // namespace
+
+FrameView viewOf(const scene::Scene& scene, const scene::Camera& camera, int width, int height) {
+  FrameView view{.camera = camera, .width = width, .height = height};
+  view.seen = scene::visibleParts(scene, camera, static_cast<double>(width) / height);
+  view.params = tightView(camera, width, height, view.seen);
+  return view;
+}
+
+SceneGpu::SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
+                   const volumes::GridOptions& gridOptions)
+    : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media, gridOptions) {
+  for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
+}
+
+gl::ShaderDefines SceneGpu::lightingDefines(int scatteringOctaves) const {
+  gl::ShaderDefines defines;
+  if (geometry_.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
+  if (volumes_.empty()) return defines;
+  defines.emplace_back("SMOKE", "1");
+  if (volumes_.burning()) defines.emplace_back("FIRE", "1");
+  if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
+  return gl::joined(defines, volumes_.defines());
+}
+
+deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& quality,
+                                        size_t linkedNodes) const {
+  const Profiler::Scope time(device_.profiler(), "deep shadow maps");
+  scene::Seen all;
+  all.add(scene::visibleParts(mediaBoxes_, view.camera, static_cast<double>(view.width) / view.height));
+  all.add(view.seen);
+  const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
+  deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
+                              .once = geometry_.hasShadowOnce(),
+                              .notSelf = geometry_.hasNotSelf(),
+                              .defines = geometry_.defines()};
+  if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
+  return deepshadow::Maps(
+      device_,
+      {.lights = scene_.lights,
+       .casters = casters,
+       .volumes = volumes_,
+       .receivers = all.points,
+       .castingPoints = castingPoints,
+       .plan = {shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality),
+                quality.shadowError},
+       .budget = {.bytes = quality.shadowMemory,
+                  .lowerResolution = !quality.exactShadowResolution,
+                  .loosenError = !quality.exactShadowError},
+       .stepVoxels = quality.stepVoxels,
+       .lists = quality.lists,
+       .linkedSmokeNodes = quality.walkedSmokeNodes,
+       .linkedNodes = linkedNodes});
+}
+
+ShadowFigures figuresOf(const deepshadow::Maps& shadows) {
+  return {.error = shadows.plan().error,
+          .lowered = shadows.lowered(),
+          .bytes = shadows.bytes(),
+          .predictedBytes = shadows.predictedBytes(),
+          .budgetBytes = shadows.budgetBytes()};
+}
+
+}  // namespace sfumato::pipelines

@@ -1,0 +1,60 @@
+// A scene on the device, what a camera sees of it, and the deep shadow maps of its lights: what every
+// pipeline starts a frame with.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "deepshadow/maps_gpu.h"
+#include "gl/device.h"
+#include "pipelines/frame_gpu.h"
+#include "pipelines/geometry_gpu.h"
+#include "pipelines/quality.h"
+#include "scene/scene.h"
+#include "shaders/shared/view.h"
+#include "volumes/grid.h"
+#include "volumes/volumes_gpu.h"
+
+namespace sfumato::pipelines {
+
+struct FrameView {
+  scene::Camera camera;
+  int width = 0;  // pixels
+  int height = 0;
+  std::vector<std::vector<glm::dvec3>> seen;  // of each instance: scene/visible_hull.h
+  // Of the whole image, with clip planes close around the surfaces that are seen: it shows the same, and the
+  // depth test tells more depths apart.
+  shared::ViewParams params{};
+};
+
+FrameView viewOf(const scene::Scene& scene, const scene::Camera& camera, int width, int height);
+
+class SceneGpu {
+ public:
+  // Uploads what the scene holds. The scene must outlive it.
+  SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
+           const volumes::GridOptions& gridOptions = {});
+
+  gl::Device& device() const { return device_; }
+  const scene::Scene& scene() const { return scene_; }
+  const std::vector<lights::Light>& lights() const { return scene_.lights; }
+  const GeometryGpu& geometry() const { return geometry_; }
+  const volumes::VolumesGpu& volumes() const { return volumes_; }
+
+  // Of programs that light surfaces or march through smoke.
+  gl::ShaderDefines lightingDefines(int scatteringOctaves) const;
+  // `linkedNodes`: see deepshadow::MapInputs.
+  deepshadow::Maps buildShadows(const FrameView& view, const Quality& quality, size_t linkedNodes = 0) const;
+
+ private:
+  gl::Device& device_;
+  const scene::Scene& scene_;
+  std::vector<glm::dmat4> mediaBoxes_;  // world from unit cube
+  GeometryGpu geometry_;
+  volumes::VolumesGpu volumes_;
+};
+
+ShadowFigures figuresOf(const deepshadow::Maps& shadows);
+
+}  // namespace sfumato::pipelines
