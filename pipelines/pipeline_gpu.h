@@ -1,9 +1,16 @@
 // A way to draw a frame. All of them draw the same scenes, with the same materials and lights.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string>
+
+#include "gl/device.h"
 #include "pipelines/frame_gpu.h"
 #include "pipelines/quality.h"
 #include "scene/scene.h"
+#include "volumes/grid.h"
+#include "volumes/volumes_gpu.h"
 
 namespace sfumato::pipelines {
 
@@ -13,5 +20,10 @@ class Pipeline {
   virtual Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                        const FrameOptions& options = {}) = 0;
 };
+
+// The one of a name (pipelines/pipeline_names.h), with the scene uploaded; the scene must outlive it.
+std::unique_ptr<Pipeline> makePipeline(const std::string& name, gl::Device& device, const scene::Scene& scene,
+                                       std::span<const volumes::Medium> media,
+                                       const volumes::GridOptions& gridOptions = {});
 
 }  // namespace sfumato::pipelines

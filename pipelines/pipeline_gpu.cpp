@@ -1,0 +1,15 @@
+#include "pipelines/pipeline_gpu.h"
+
+#include "pipelines/linked_lists_gpu.h"
+#include "pipelines/pipeline_names.h"
+
+namespace sfumato::pipelines {
+
+std::unique_ptr<Pipeline> makePipeline(const std::string& name, gl::Device& device, const scene::Scene& scene,
+                                       std::span<const volumes::Medium> media,
+                                       const volumes::GridOptions& gridOptions) {
+  checkPipelineName(name);
+  return std::make_unique<LinkedListsPipeline>(device, scene, media, gridOptions);
+}
+
+}  // namespace sfumato::pipelines
