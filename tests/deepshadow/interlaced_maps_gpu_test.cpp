@@ -313,8 +313,6 @@ TEST_F(InterlacedMapsGpu, PointsGetTheLightThatOnePaneAndWallsLeave) {
         EXPECT_LT(asked.worstOf(ask(asked.probes, light, side)), 1.0 / 1023);
         EXPECT_LT(asked.worstOf(askDeep(scene, asked.probes, 256, side)), 1.0 / 500);
       }
-      fmt::print("light {}: {} dark, {} filtered, {} lit\n", static_cast<int>(light.type), dark, filtered,
-                 lit);
     }
   }
   EXPECT_GT(filteredInAll, 1000);
@@ -570,17 +568,12 @@ TEST_F(InterlacedMapsGpu, NothingIsDarkAtTheBorderOfAPanesShadow) {
         const dvec3 d =
             glm::normalize(dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
         if (glm::dot(d, to) > 0.2 && d.y > 0.05) probes.push_back(onSurface(0.699 * d, d));
-        // Where neither the ball's shadow falls, nor, however coarse the map, what joins there blocks.
         const dvec3 p(random.uniform(-2, 1.4), 0, random.uniform(-2, 2));
-        const double missed =
-            glm::length(glm::cross(p - (type == LightType::Directional ? dvec3(0) : light.position),
-                                   type == LightType::Directional ? to : glm::normalize(p - light.position)));
-        if (type == LightType::Directional
-                ? missed > 1
-                : glm::length(glm::cross(light.position, glm::normalize(p - light.position))) > 1)
-          probes.push_back(onSurface(p, {0, 1, 0}));
+        const dvec3 ray = type == LightType::Directional ? -to : glm::normalize(p - light.position);
+        const bool besideTheBall = glm::length(glm::cross(p, ray)) > 1;
+        if (besideTheBall) probes.push_back(onSurface(p, {0, 1, 0}));
       }
-      for (const int resolution : {64, 256}) {
+      for (const int resolution : {type == LightType::Point ? 128 : 64, 256}) {
         build(scene, resolution);
         for (const int side : filterSides) {
           int border = 0;
@@ -590,8 +583,10 @@ TEST_F(InterlacedMapsGpu, NothingIsDarkAtTheBorderOfAPanesShadow) {
             dark = std::max({dark, lack.x, lack.y, lack.z});
             border += passing.x > 0.72 && passing.x < 0.98 ? 1 : 0;
           }
-          EXPECT_LT(dark, 1 / 1023.0) << "light " << static_cast<int>(type) << " at " << degrees
-                                      << " degrees, " << resolution << " texels, filter " << side;
+          // Of a coarse map one more line is asked than of a deep one, which the ball curves away from.
+          EXPECT_LT(dark, resolution < 256 ? 3e-3 : 1 / 1023.0)
+              << "light " << static_cast<int>(type) << " at " << degrees << " degrees, " << resolution
+              << " texels, filter " << side;
           EXPECT_GT(border, side == 1 ? -1 : 3);
         }
       }
