@@ -594,6 +594,37 @@ TEST_F(InterlacedMapsGpu, NothingIsDarkAtTheBorderOfAPanesShadow) {
   }
 }
 
+// A wall without a thickness on the floor, and a pane that stands before half of it.
+TEST_F(InterlacedMapsGpu, BehindAThinWallItIsDarkBehindAPaneOrNot) {
+  const Sheets sheets = {{{-4, 0, 4}, {8, 0, 0}, {0, 0, -8}},
+                         {{0, 0, -2.5}, {0, 0, 5}, {0, 2, 0}},
+                         {{1.2, 0.1, 0.3}, {0.3, 2.8, 0}, {0, 0.1, 3}, {0.3, 0.9, 0.6}}};
+  int allDark = 0;
+  int allFiltered = 0;
+  for (const LightType type : {LightType::Spot, LightType::Point, LightType::Directional}) {
+    for (const double degrees : {10.0, 30.0, 60.0, 75.0}) {
+      const double e = degrees * 3.14159265358979 / 180;
+      const dvec3 to(std::cos(e) * 0.96, std::sin(e), std::cos(e) * 0.28);
+      const Light light = type == LightType::Directional ? tests::directionalLight(-to, dvec3(1))
+                          : type == LightType::Point
+                              ? tests::pointLight(7.0 * to, dvec3(1))
+                              : tests::spotLight(7.0 * to, {0, 0, 0}, dvec3(1), 0.5, 0.6);
+      const int resolution = type == LightType::Point ? 512 : 256;
+      const Asked asked = askedOnSurfaces(sheets, light, resolution);
+      build(sceneOf(sheets, light), resolution);
+      const auto [dark, filtered, lit] = asked.kinds();
+      for (const int side : filterSides)
+        EXPECT_LT(asked.worstOf(ask(asked.probes, light, side)), 1 / 1023.0)
+            << "light " << static_cast<int>(type) << " at " << degrees << " degrees, filter " << side << ": "
+            << dark << " dark, " << filtered << " filtered, " << lit << " lit";
+      allDark += dark;
+      allFiltered += filtered;
+    }
+  }
+  EXPECT_GT(allDark, 500);
+  EXPECT_GT(allFiltered, 500);
+}
+
 // What is seen of a step when something moves across the edge of a shadow.
 struct Step {
   bool monotone = true;
