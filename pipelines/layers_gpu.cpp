@@ -88,14 +88,18 @@ gl::ShaderDefines LayeredFrame::lightingDefines() const {
   return gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines());
 }
 
+gl::ShaderDefines LayeredFrame::interlaceDefines() const {
+  return {{"INTERLACE",
+           options().interlace == Interlace::Checkerboard ? "INTERLACE_CHECKERBOARD" : "INTERLACE_LINES"}};
+}
+
 const lights::Light& LayeredFrame::light(size_t number) const {
   return scene_.lights()[static_cast<size_t>(lightLists_->order()[number])];
 }
 
 shared::ResolveParams LayeredFrame::params() const {
   shared::ResolveParams params{};
-  params.march = {static_cast<float>(quality_.stepVoxels), static_cast<float>(quality_.throughputCutoff), 0.f,
-                  0.f};
+  params.march = {quality_.stepVoxels, quality_.throughputCutoff, options().refraction * view_.height, 0};
   params.options = {0, tapsOf(quality_.surfaceShadows) + 8 * tapsOf(quality_.smokeShadows),
                     lightLists_->directionalLights(), 0};
   return params;
@@ -167,10 +171,7 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
   };
   if (what.surfaces != LayerDraw::Surfaces::Translucent) drawSurfaces(Layer::Opaque, {});
   if (what.surfaces == LayerDraw::Surfaces::Translucent) drawSurfaces(Layer::Translucent, {});
-  if (what.surfaces == LayerDraw::Surfaces::Interlaced)
-    drawSurfaces(Layer::Translucent,
-                 {{"INTERLACE", options().interlace == Interlace::Checkerboard ? "INTERLACE_CHECKERBOARD"
-                                                                               : "INTERLACE_LINES"}});
+  if (what.surfaces == LayerDraw::Surfaces::Interlaced) drawSurfaces(Layer::Translucent, interlaceDefines());
 }
 
 void LayeredFrame::drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params) {
@@ -217,17 +218,26 @@ size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light,
   const Profiler::Scope time(device().profiler(), "walk");
   gl::ShaderDefines defines = lightingDefines();
   if (last) defines.emplace_back("LAST", "1");
-  const gl::Program& program = device().program({"pipelines/layer_walk.comp"}, defines);
-  gl::Buffer counters(device(), "walk counters", sizeof(shared::ResolveCounters));
   shared::ResolveParams params = this->params();
   params.options.x = ++walk.layers;
+  return dispatchWalk(
+      device().program({"pipelines/layer_walk.comp"}, defines), params,
+      [&] {
+        layer.bind();
+        light.bind(TEXTURE_LAYER_LIGHT);
+      },
+      walk);
+}
+
+size_t LayeredFrame::dispatchWalk(const gl::Program& program, shared::ResolveParams params,
+                                  const std::function<void()>& bindInputs, Walk& walk) {
+  gl::Buffer counters(device(), "walk counters", sizeof(shared::ResolveCounters));
   params.options.w = static_cast<int>(pixels());
   size_t met = 0;
   for (int i = 0;; ++i) {
     base::check(i < maxDispatches, "the walk ends");
     bind(params);
-    layer.bind();
-    light.bind(TEXTURE_LAYER_LIGHT);
+    bindInputs();
     counters.clear();
     counters.bindStorage(STORAGE_COUNTERS);
     walk.rays.bindStorage(STORAGE_RAYS);

@@ -3,6 +3,7 @@
 // together from. One sample a pixel, at its centre; the whole image at once.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +69,11 @@ class LayeredFrame {
   // one.
   size_t walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk);
 
+  // Dispatches a program that takes all rays on, until none says that it is unfinished. How many met a
+  // surface.
+  size_t dispatchWalk(const gl::Program& program, shared::ResolveParams params,
+                      const std::function<void()>& bindInputs, Walk& walk);
+
   // What the rays gathered, and the figures of the frame.
   Frame finish(const Walk& walk);
 
@@ -79,6 +85,7 @@ class LayeredFrame {
   ShadowKind shadowKind() const { return shadowKind_; }
   size_t pixels() const;
   gl::ShaderDefines storageDefines() const;
+  gl::ShaderDefines interlaceDefines() const;
   // Of programs that march or light surfaces.
   gl::ShaderDefines lightingDefines() const;
   // Lights in the order of the light lists.
