@@ -70,6 +70,7 @@ void drawAmbient(LayeredFrame& frame, const ForwardImage& image) {
 void addLight(LayeredFrame& frame, size_t number, const ForwardImage& image) {
   const gl::Profiler::Scope time(frame.device().profiler(), "lighting");
   const gl::Framebuffer target(std::vector<const gl::Texture*>{&image.light}, &image.depthTest);
+  frame.takeTurn(number);
   shared::ResolveParams params = frame.params();
   params.options.w = static_cast<int>(number);
   frame.bind(params);
@@ -95,7 +96,7 @@ Frame ForwardPipeline::render(const scene::Camera& camera, int width, int height
   if (quality.deferred.interlace == Interlace::Full)
     base::fail(base::ExitCode::Usage,
                "--interlace full: a forward renderer has one image: choose lines or checkerboard");
-  LayeredFrame frame(scene_, camera, width, height, quality, ShadowKind::Interlaced);
+  LayeredFrame frame(scene_, camera, width, height, quality, {ShadowKind::Interlaced, true});
   const ForwardImage image = emptyImage(frame);
   drawAmbient(frame, image);
   for (size_t i = 0; i < frame.lightCount(); ++i) addLight(frame, i, image);

@@ -25,7 +25,7 @@ InterlacedPipeline::InterlacedPipeline(gl::Device& device, const scene::Scene& s
 
 Frame InterlacedPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                  const FrameOptions& options) {
-  LayeredFrame frame(scene_, camera, width, height, quality, ShadowKind::Interlaced);
+  LayeredFrame frame(scene_, camera, width, height, quality, {ShadowKind::Interlaced, true});
   options.onTile();
   if (quality.deferred.interlace == Interlace::Full) return peel(frame, 1);
   const SurfaceLayer layer = frame.layer("interlaced layer");
