@@ -30,6 +30,7 @@
 #define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
 #define STORAGE_LIST_NODES 17     // keys or links, LIST_MAX_BANKS of them
 #define STORAGE_LIST_PAYLOADS 21  // likewise
+#define STORAGE_BENDS 9             // of each pixel: see layer_walk.comp
 #define STORAGE_DEEP_RAYS 25      // the rays that are recorded: see deep_events.glsl
 #define STORAGE_DEEP_EVENTS 26    // DeepEvent[]
 
