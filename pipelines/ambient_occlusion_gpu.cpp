@@ -33,7 +33,7 @@ shared::OcclusionParams paramsOf(const AmbientOcclusionInputs& inputs, glm::ivec
   shared::OcclusionParams params{};
   for (int i = 0; i < OCCLUSION_SAMPLES; ++i) params.offsets[i] = glm::vec4(pointOfBall(i), 0);
   params.size = {size.x, size.y, pixelsAside(inputs.options.size), blurReach(inputs.options.size)};
-  params.distances = {inputs.options.radius, inputs.surfacesApart, 0, 0};
+  params.distances = {inputs.options.radius, inputs.surfacesApart, inputs.blurredWithin, 0};
   return params;
 }
 

@@ -20,6 +20,7 @@ struct AmbientOcclusionInputs {
   // Of the blur's weights (equation 3), in radii: the distance between surfaces at which they have fallen to
   // half. A large one makes it an ordinary Gaussian.
   double surfacesApart = 0.02;
+  double blurredWithin = 0.3;  // radii: places farther apart share nothing
 };
 
 // Of each block of pixels, RGBA32UI: see shaders/pipelines/occlusion.glsl. A flat surface by itself, what is

@@ -27,14 +27,18 @@ vec3 randomUnit(ivec2 place) {
   return vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(angle), sin(angle)), z);
 }
 
+// Of what is at a distance, radii: equation 2, 1 / (1 + d^2), times 1 - d^4, so that it ends at the radius, and what is far
+// in front has no halo.
+float weightAt(float d) {
+  return max(1.0 - d * d, 0.0);
+}
+
 // How much of the light around a surface point another one takes, if it is what hides a point near by.
 float occlusionBy(vec3 p, vec3 normal, vec3 other) {
   vec3 apart = other - p;
   float metres = length(apart);
   if (dot(apart, normal) <= LOWEST * metres + ROUNDING * max(-p.z, 0.0)) return 0.0;
-  // Equation 2, brought to 0 at the radius, so that what is far in front has no halo.
-  float d2 = metres * metres / (params.distances.x * params.distances.x);
-  return max(1.0 - d2 * d2, 0.0) / (1.0 + d2);
+  return weightAt(metres / params.distances.x);
 }
 
 void main() {
@@ -47,8 +51,10 @@ void main() {
     vec3 normal = normalInView(view, found.normal);
     vec3 mirror = randomUnit(result);
     float occlusion = 0.0;
+    float most = 0.0;  // were every point hidden where it is
     for (int i = 0; i < OCCLUSION_SAMPLES; ++i) {
       vec3 offset = reflect(params.offsets[i].xyz, mirror);
+      most += weightAt(length(offset));
       if (dot(offset, normal) < 0.0) offset = -offset;
       vec3 q = p + params.distances.x * offset;
       float depth = -q.z;
@@ -57,7 +63,7 @@ void main() {
       float hiding = texelFetch(opaqueDepth, ivec2(seenAt), 0).r;
       if (hiding < depth) occlusion += occlusionBy(p, normal, placeOf(view, floor(seenAt) + 0.5, hiding));
     }
-    found.occlusion = occlusion / float(OCCLUSION_SAMPLES);
+    found.occlusion = min(occlusion / most, 1.0);
   }
   imageStore(results, result, packOccluded(found));
 }

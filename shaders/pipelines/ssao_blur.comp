@@ -1,6 +1,6 @@
 // One direction of the separable cross-bilateral blur (Ferko 2012, section 5.2): a Gaussian whose weights fall with the
 // distance between surfaces. That is told from the plane of the surface in the middle, not from depths: a floor seen at a
-// grazing angle is one surface. And places a radius apart share nothing, so that small images keep what is dark.
+// grazing angle is one surface. And places far apart share nothing, so that small images keep what is dark.
 #include "shaders/pipelines/occlusion.glsl"
 #include "shaders/shared/bindings.h"
 
@@ -50,7 +50,7 @@ void main() {
     for (int i = -reach; i <= reach; ++i) {
       vec4 other = line[number + reach + i];
       vec3 apart = (other.xyz - p) / params.distances.x;
-      float near = max(1.0 - dot(apart, apart), 0.0);
+      float near = max(1.0 - dot(apart, apart) / (params.distances.z * params.distances.z), 0.0);
       float weight = near * gaussian[abs(i)] / (params.distances.y + abs(dot(apart, normal)));  // equation 3
       if (other.w == NO_SURFACE) weight = 0.0;
       sum += weight * other.w;

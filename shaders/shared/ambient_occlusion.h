@@ -10,7 +10,7 @@ struct OcclusionParams {
   vec4 offsets[OCCLUSION_SAMPLES];  // xyz: points of the unit ball
   ivec4 size;      // x, y: results across and up; z: pixels a side for which there is one; w: how far the blur reaches
   ivec4 along;     // x, y: the direction of the blur, one of them 1
-  vec4 distances;  // x: radius, m; y: delta of the blur's weights, radii
+  vec4 distances;  // x: radius, m; y: delta of the blur's weights, radii; z: how far it reaches, radii
 };
 
 SHARED_END
