@@ -42,6 +42,7 @@
 #define TEXTURE_TRANSMISSION 4
 #define TEXTURE_SPECULAR 5
 #define TEXTURE_SPECULAR_COLOUR 6
+#define TEXTURE_OCCLUSION 6  // of ambient light, where surfaces of a G-buffer are lit
 #define TEXTURE_OPAQUE_DEPTH 7
 #define TEXTURE_SURFACE_0 8
 #define TEXTURE_SURFACE_1 9
@@ -64,3 +65,6 @@
 #define TEXTURE_PEELED_DEPTH 14
 #define TEXTURE_PEELED_ID 17
 #define TEXTURE_GRIDS 20  // and the units after it
+
+// Image units
+#define IMAGE_RESULT 0  // what a pass of images writes
