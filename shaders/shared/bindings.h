@@ -34,7 +34,12 @@
 #define STORAGE_DEEP_RAYS 25      // the rays that are recorded: see deep_events.glsl
 #define STORAGE_DEEP_EVENTS 26    // DeepEvent[]
 
+// Images that are written
+#define IMAGE_PICTURE 0  // of post-processing
+
 // Texture units
+#define TEXTURE_PICTURE 0           // what post-processing reads
+#define TEXTURE_PICTURE_SURFACES 1  // normal and 1 / depth of each pixel
 #define TEXTURE_BASE_COLOUR 0
 #define TEXTURE_METALLIC_ROUGHNESS 1
 #define TEXTURE_NORMAL 2
