@@ -3,6 +3,7 @@
 // together from. One sample a pixel, at its centre; the whole image at once.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,6 +79,7 @@ class LayeredFrame {
   const DeferredOptions& options() const { return quality_.deferred; }
   size_t pixels() const;
   gl::ShaderDefines storageDefines() const;
+  std::array<gl::Format, 3> surfaceFormats() const;
   // Of programs that march or light surfaces.
   gl::ShaderDefines lightingDefines() const;
   // Lights in the order of the light lists.
