@@ -18,6 +18,7 @@
 #include "base/version.h"
 #include "image/image_file.h"
 #include "pipelines/list_prediction.h"
+#include "pipelines/pipeline_names.h"
 #include "pipelines/reference.h"
 #include "scene/camera_view.h"
 #include "scene/default_set.h"
@@ -132,6 +133,17 @@ scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& sce
   return camera;
 }
 
+pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
+  pipelines::DeferredOptions deferred;
+  if (!options.shadows.empty()) deferred.shadows = pipelines::shadowKinds().named(options.shadows);
+  deferred.interlace = pipelines::interlaces().named(options.interlace);
+  deferred.storage = pipelines::storages().named(options.storage);
+  deferred.passes = pipelines::passesNames().named(options.passes);
+  deferred.layers = options.layers;
+  deferred.refraction = options.refraction;
+  return deferred;
+}
+
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
@@ -149,6 +161,7 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
   quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
+  quality.deferred = deferredOf(options);
   return quality;
 }
 
@@ -170,6 +183,7 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                             {"sfumato:command_line", options.commandLine},
                             {"sfumato:scene", options.scene.empty() ? "default set" : options.scene},
                             {"sfumato:size", fmt::format("{}x{}", options.width, options.height)},
+                            {"sfumato:pipeline", options.pipeline},
                             {"sfumato:quality", options.quality},
                             {"sfumato:step_voxels", fmt::format("{}", shot.quality.stepVoxels)},
                             {"sfumato:scattering_octaves", fmt::format("{}", options.scatteringOctaves)},
@@ -205,6 +219,21 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
 std::filesystem::path placeOf(const std::string& file) {
   std::error_code ignored;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+}
+
+// What only the core pipeline draws is not left out silently.
+void checkPipeline(const RenderOptions& options) {
+  pipelines::checkPipelineName(options.pipeline);
+  if (options.pipeline == "lund") return;
+  const std::pair<const char*, bool> flags[] = {{"--aov", !options.aovs.empty()},
+                                                {"--deep", !options.deep.empty()},
+                                                {"--deep-shadow", !options.deepShadows.empty()},
+                                                {"--half-res-smoke", options.halfResolutionSmoke},
+                                                {"--reference", options.reference}};
+  for (const auto& [flag, given] : flags)
+    if (given)
+      fail(ExitCode::Usage, "{}: --pipeline {} has no such thing: leave out one of them", flag,
+           options.pipeline);
 }
 
 // Every output is checked before the long work: it can be written, and is no other file of this run.
@@ -351,6 +380,7 @@ int render(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
   if (options.scene.empty() && options.volumes.empty())
     fail(ExitCode::Usage, "render: no scene: name a .gltf or .glb file, or smoke with --volume FILE.vdb");
+  checkPipeline(options);
   checkOutputs(options);
   const Shot shot = makeShot(options);
   if (options.dryRun) {
