@@ -38,6 +38,12 @@ int mostLines(const gl::Device& device) {
 
 }  // namespace
 
+gl::ShaderDefines lookupDefines(InterlacedKind kind) {
+  gl::ShaderDefines defines = {{"INTERLACED_SHADOWS", "1"}};
+  if (kind == InterlacedKind::Opaque) defines.emplace_back("PLAIN_SHADOWS", "1");
+  return defines;
+}
+
 void InterlacedMaps::build(gl::Device& device, const InterlacedInputs& inputs) {
   const ivec2 size = arrange(device, inputs);
   std::vector<shared::ShadowFace> data;
