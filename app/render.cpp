@@ -132,26 +132,6 @@ scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& sce
   return camera;
 }
 
-pipelines::Quality chooseQuality(const RenderOptions& options) {
-  pipelines::Quality quality = pipelines::qualityNamed(options.quality);
-  if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
-  quality.exactShadowResolution = options.shadowResolution.has_value();
-  quality.shadowError = options.shadowError.value_or(quality.shadowError);
-  quality.exactShadowError = options.shadowError.has_value();
-  if (!options.shadowFilter.empty())
-    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
-  if (!options.shadowMemory.empty())
-    quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
-  quality.scatteringOctaves = options.scatteringOctaves;
-  if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
-  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
-  if (!options.listMemory.empty())
-    quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
-  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
-  return quality;
-}
-
 void expose(image::Image& image, double stops) {
   const auto factor = static_cast<float>(std::exp2(stops));
   for (float& value : image.values) value *= factor;
@@ -330,6 +310,42 @@ scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Med
   return scene::boundsOf(scene::boundingPoints(scene, mediaBoxes));
 }
 
+bool isOfScene(const RenderOptions& options) {
+  return !options.scene.empty() || !options.volumes.empty();
+}
+
+void checkWithoutScene(const RenderOptions& options) {
+  const std::pair<const char*, bool> given[] = {{"--grid", !options.grid.empty()},
+                                                {"--volume-scale", options.volumeScale.has_value()},
+                                                {"--camera", !options.camera.empty()},
+                                                {"--time", options.timeSeconds.has_value()},
+                                                {"--look-from", options.lookFrom.has_value()},
+                                                {"--look-at", options.lookAt.has_value()},
+                                                {"--fov", options.fovDegrees.has_value()}};
+  for (const auto& [name, is] : given)
+    if (is) fail(ExitCode::Usage, "{}: is for a scene: name a .gltf or .glb file", name);
+}
+
+pipelines::Quality chooseQuality(const RenderOptions& options) {
+  pipelines::Quality quality = pipelines::qualityNamed(options.quality);
+  if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
+  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.exactShadowResolution = options.shadowResolution.has_value();
+  quality.shadowError = options.shadowError.value_or(quality.shadowError);
+  quality.exactShadowError = options.shadowError.has_value();
+  if (!options.shadowFilter.empty())
+    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
+  if (!options.shadowMemory.empty())
+    quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
+  quality.scatteringOctaves = options.scatteringOctaves;
+  if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
+  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
+  if (!options.listMemory.empty())
+    quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
+  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
+  return quality;
+}
+
 Shot makeShot(const RenderOptions& options) {
   Shot shot;
   if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
@@ -349,7 +365,7 @@ Shot makeShot(const RenderOptions& options) {
 
 int render(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
-  if (options.scene.empty() && options.volumes.empty())
+  if (!isOfScene(options))
     fail(ExitCode::Usage, "render: no scene: name a .gltf or .glb file, or smoke with --volume FILE.vdb");
   checkOutputs(options);
   const Shot shot = makeShot(options);
