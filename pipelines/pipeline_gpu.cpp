@@ -1,6 +1,7 @@
 #include "pipelines/pipeline_gpu.h"
 
 #include "pipelines/linked_lists_gpu.h"
+#include "pipelines/peeling_gpu.h"
 #include "pipelines/pipeline_names.h"
 
 namespace sfumato::pipelines {
@@ -9,6 +10,7 @@ std::unique_ptr<Pipeline> makePipeline(const std::string& name, gl::Device& devi
                                        std::span<const volumes::Medium> media,
                                        const volumes::GridOptions& gridOptions) {
   checkPipelineName(name);
+  if (name == "peeling") return std::make_unique<PeelingPipeline>(device, scene, media, gridOptions);
   return std::make_unique<LinkedListsPipeline>(device, scene, media, gridOptions);
 }
 

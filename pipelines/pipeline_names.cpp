@@ -9,7 +9,7 @@
 namespace sfumato::pipelines {
 
 const std::vector<std::string>& pipelineNames() {
-  static const std::vector<std::string> names = {"lund"};
+  static const std::vector<std::string> names = {"lund", "peeling"};
   return names;
 }
 

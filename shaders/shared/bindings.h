@@ -57,4 +57,9 @@
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_BRICK_MAP 18
 #define TEXTURE_SMOKE_BLOCKS 19  // RayState of each block of pixels
+// Where layers of surfaces are lit one at a time, and no lists of them are read:
+#define TEXTURE_SURFACE_2 12
+#define TEXTURE_LAYER_LIGHT 13
+#define TEXTURE_PEELED_DEPTH 14
+#define TEXTURE_PEELED_ID 17
 #define TEXTURE_GRIDS 20  // and the units after it

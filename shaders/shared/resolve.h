@@ -28,7 +28,7 @@ struct ResolveParams {
 };
 
 struct ResolveCounters {
-  uint groups;      // pixels that are split, counted past the capacity
+  uint groups;      // pixels that are split, counted past the capacity; of layers: rays that met a surface
   uint unfinished;  // rays that need another dispatch
   uint boundHit;    // walks of light lists that were cut (never silently)
 };
