@@ -373,7 +373,7 @@ void addComparison(CLI::App& command, BenchOptions& options) {
       ->group("Comparison");
   command
       .add_option("--exact", options.exact,
-                  "Hold them against cpu, the reference, or lund at its best; else what takes less")
+                  "What is exact: cpu (the reference), or lund at its best; else by size")
       ->type_name("NAME")
       ->check(oneOf({"cpu", "lund", "auto"}))
       ->group("Comparison");

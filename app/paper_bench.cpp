@@ -56,22 +56,35 @@ std::string text(const std::optional<double>& value, const char* format) {
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 
-// Of each row our milliseconds for each column, then for each column that is no baseline both ratios.
+// Whether its columns are of other machines, and all one setting here.
+bool isOfMachines(const PaperTable& table) {
+  return std::ranges::all_of(table.settings, [](const std::vector<PaperSetting>& row) {
+    return std::ranges::all_of(row, [&](const PaperSetting& setting) { return setting == row.front(); });
+  });
+}
+
+// Of each row our milliseconds, then both ratios for each column that is no baseline.
 std::vector<Row> rowsOf(const PaperResult& result, const PaperTable& table) {
+  const bool machines = isOfMachines(table);
+  const size_t columns = table.columns.size();
+  const size_t timed = machines ? 1 : columns;
+  const size_t firstRatio = table.baselineRows.empty() ? 1 : 0;
   Row head = {table.rowTitle};
-  for (const std::string& column : table.columns) head.push_back(column + " ms");
-  for (size_t column = table.baselineRows.empty() ? 1 : 0; column < table.columns.size(); ++column) {
-    head.push_back(table.columns[column] + " paper");
-    head.push_back("here");
+  for (size_t column = 0; column < timed; ++column)
+    head.push_back(machines ? "ms" : table.columns[column] + " ms");
+  for (size_t column = firstRatio; column < columns; ++column) {
+    head.push_back(table.columns[column] + (machines ? "" : " paper"));
+    if (!machines || column + 1 == columns) head.push_back("here");
   }
   std::vector<Row> rows = {head};
   for (size_t row = 0; row < table.rows.size(); ++row) {
     Row line = {table.rows[row]};
-    for (size_t column = 0; column < table.columns.size(); ++column)
+    for (size_t column = 0; column < timed; ++column)
       line.push_back(text(result.ours(table, row, column), "{:.1f}"));
-    for (size_t column = table.baselineRows.empty() ? 1 : 0; column < table.columns.size(); ++column) {
+    for (size_t column = firstRatio; column < columns; ++column) {
       line.push_back(fmt::format("{:.2f}", paperRatio(table, row, column)));
-      line.push_back(text(result.ourRatio(table, row, column), "{:.2f}"));
+      if (!machines || column + 1 == columns)
+        line.push_back(text(result.ourRatio(table, row, column), "{:.2f}"));
     }
     rows.push_back(line);
   }
