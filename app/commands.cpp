@@ -1,6 +1,6 @@
 #include "app/commands.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
 #include <memory>
@@ -187,6 +187,45 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->check(oneOf(pipelines::shadowFilterNames()));
   add("--shadow-memory", options.shadowMemory, "Most that they may take together, else what the device reads")
       ->type_name("BYTES|64K|256M|2G");
+}
+
+void addPipeline(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option(
+          "--pipeline", options.pipeline,
+          fmt::format("Draw so: {}; else {}", fmt::join(pipelines::pipelineNames(), ", "), options.pipeline))
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::pipelineNames()))
+      ->group("Pipeline");
+}
+
+// Settings of pipelines other than lund.
+void addDeferred(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const std::string& help) {
+    return command.add_option(name, value, help)->group("Pipeline");
+  };
+  const auto choose = [&](const std::string& name, std::string& value, const std::string& what,
+                          const std::vector<std::string>& names, const std::string& usual) {
+    command.add_option(name, value, fmt::format("{}: {}; else {}", what, fmt::join(names, ", "), usual))
+        ->group("Pipeline")
+        ->type_name("NAME")
+        ->check(oneOf(names));
+  };
+  choose("--shadows", options.shadows, "Shadows of pipelines other than lund", pipelines::shadowKinds().names,
+         "their own");
+  choose("--interlace", options.interlace, "Pixels of translucent surfaces", pipelines::interlaces().names,
+         options.interlace);
+  choose("--storage", options.storage, "Targets: of floats, or of 8 and 10 bits", pipelines::storages().names,
+         options.storage);
+  choose("--passes", options.passes, "Of reentrant: for all translucent surfaces, or an object",
+         pipelines::passesNames().names, options.passes);
+  add("--layers", options.layers, "Layers that are peeled at most: 1 to 10000, else all")
+      ->type_name("N")
+      ->check(wholeBetween(1, 10000));
+  add("--refraction", options.refraction,
+      "Bend what is seen through surfaces: 0 to 1, of the image's height, else 0")
+      ->type_name("PART")
+      ->check(between(0.0, 1.0));
 }
 
 void addScattering(CLI::App& command, RenderOptions& options) {
@@ -474,6 +513,8 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addView(command, options);
   addQuality(command, options);
   addScattering(command, options);
+  addPipeline(command, options);
+  addDeferred(command, options);
   addLists(command, options);
   addReference(command, options);
   addOutput(command, options);
@@ -541,6 +582,7 @@ BenchCommands addBench(CLI::App& program, BenchOptions& options, PapersOptions& 
   addFire(comparison, options.shot);
   addView(comparison, options.shot);
   addQuality(comparison, options.shot);
+  addDeferred(comparison, options.shot);
   addReport(comparison, options);
   addDevice(comparison, options.shot.device);
   addFlags(comparison, verbosity);

@@ -40,6 +40,13 @@ struct RenderOptions {
   std::optional<glm::dvec3> lookAt;
   std::optional<double> fovDegrees;
   std::optional<double> timeSeconds;  // pose of the scene's animations; none: at rest
+  std::string pipeline = "lund";
+  std::string shadows;  // of a pipeline other than lund: pipelines/deferred_options.h; empty: its own
+  std::string interlace = "lines";
+  std::string storage = "exact";
+  std::string passes = "object";
+  int layers = 0;
+  double refraction = 0;
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;

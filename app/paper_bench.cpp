@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/bench.h"
 #include "app/text_table.h"
-#include "base/error.h"
+#include "base/log.h"
+#include "image/image_file.h"
 
 namespace sfumato::app {
 namespace {
@@ -167,6 +169,12 @@ std::optional<double> PaperResult::ourRatio(const PaperTable& table, size_t row,
   return *other / *one;
 }
 
+std::string nameOf(const PaperSetting& setting) {
+  const char* const names[] = {"hall", "court", "statue", "house"};
+  return fmt::format("{}, {} opaque and {} translucent triangles", names[static_cast<size_t>(setting.scene)],
+                     setting.opaque, setting.drawsTranslucent ? setting.translucent : 0);
+}
+
 double paperRatio(const PaperTable& table, size_t row, size_t column) {
   const PaperTable::Place baseline = table.baselineOf(row, column);
   return table.figures[row][column] / table.figures[baseline.row][baseline.column];
@@ -225,6 +233,20 @@ image::Report reportOf(const PaperResult& result) {
   report.parts.emplace_back(agreement(result));
   for (const PaperTable& table : result.tables) report.parts.emplace_back(pageTable(result, table));
   return report;
+}
+
+void writePictures(const PaperResult& result, const std::string& folder, image::Report& report) {
+  if (!image::readsAndWritesImages()) {
+    base::note("{}: without pictures: this build writes no images", folder);
+    return;
+  }
+  image::Pictures pictures{.title = "Scenes", .caption = "As the last test of each drew it."};
+  for (const auto& [name, picture] : result.pictures) {
+    const std::string file = fmt::format("scene_{}.png", pictures.pictures.size() + 1);
+    image::writeImage(std::filesystem::path(folder) / file, picture, {});
+    pictures.pictures.push_back({file, name});
+  }
+  report.parts.emplace_back(std::move(pictures));
 }
 
 }  // namespace sfumato::app

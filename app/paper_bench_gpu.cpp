@@ -64,9 +64,10 @@ void measure(gl::Device& device, const PapersOptions& options, PaperResult& resu
     if (last == nullptr || !sameScene(*last, setting)) made = sceneOf(setting);
     last = &setting;
     const auto pipeline = pipelines::makePipeline(setting.pipeline, device, made.scene, made.media);
-    result.milliseconds[setting] = timeFrames(*pipeline, made.scene.cameras.front(), setting.width,
-                                              setting.height, qualityOf(device, setting), options.repeat)
-                                       .milliseconds;
+    TimedFrames frames = timeFrames(*pipeline, made.scene.cameras.front(), setting.width, setting.height,
+                                    qualityOf(device, setting), options.repeat);
+    result.milliseconds[setting] = std::move(frames.milliseconds);
+    result.pictures[nameOf(setting)] = std::move(frames.last.radiance);
     progress.advance();
   }
 }
@@ -74,7 +75,9 @@ void measure(gl::Device& device, const PapersOptions& options, PaperResult& resu
 void tell(const PapersOptions& options, const PaperResult& result) {
   base::printResult(options.json ? base::jsonText(jsonOf(result)) : tableOf(result));
   if (options.report.empty()) return;
-  base::writeFile(pageOf(options.report), image::reportPage(reportOf(result)));
+  image::Report report = reportOf(result);
+  writePictures(result, options.report, report);
+  base::writeFile(pageOf(options.report), image::reportPage(report));
   base::note("wrote {}", pageOf(options.report).string());
 }
 

@@ -18,6 +18,7 @@
 #include "base/version.h"
 #include "image/image_file.h"
 #include "pipelines/list_prediction.h"
+#include "pipelines/pipeline_names.h"
 #include "pipelines/reference.h"
 #include "scene/camera_view.h"
 #include "scene/default_set.h"
@@ -132,6 +133,42 @@ scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& sce
   return camera;
 }
 
+pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
+  pipelines::DeferredOptions deferred;
+  if (!options.shadows.empty()) deferred.shadows = pipelines::shadowKinds().named(options.shadows);
+  deferred.interlace = pipelines::interlaces().named(options.interlace);
+  deferred.storage = pipelines::storages().named(options.storage);
+  deferred.passes = pipelines::passesNames().named(options.passes);
+  deferred.layers = options.layers;
+  deferred.refraction = options.refraction;
+  return deferred;
+}
+
+}  // namespace
+
+pipelines::Quality chooseQuality(const RenderOptions& options) {
+  pipelines::Quality quality = pipelines::qualityNamed(options.quality);
+  if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
+  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.exactShadowResolution = options.shadowResolution.has_value();
+  quality.shadowError = options.shadowError.value_or(quality.shadowError);
+  quality.exactShadowError = options.shadowError.has_value();
+  if (!options.shadowFilter.empty())
+    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
+  if (!options.shadowMemory.empty())
+    quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
+  quality.scatteringOctaves = options.scatteringOctaves;
+  if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
+  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
+  if (!options.listMemory.empty())
+    quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
+  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
+  quality.deferred = deferredOf(options);
+  return quality;
+}
+
+namespace {
+
 void expose(image::Image& image, double stops) {
   const auto factor = static_cast<float>(std::exp2(stops));
   for (float& value : image.values) value *= factor;
@@ -150,6 +187,7 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                             {"sfumato:command_line", options.commandLine},
                             {"sfumato:scene", options.scene.empty() ? "default set" : options.scene},
                             {"sfumato:size", fmt::format("{}x{}", options.width, options.height)},
+                            {"sfumato:pipeline", options.pipeline},
                             {"sfumato:quality", options.quality},
                             {"sfumato:step_voxels", fmt::format("{}", shot.quality.stepVoxels)},
                             {"sfumato:scattering_octaves", fmt::format("{}", options.scatteringOctaves)},
@@ -185,6 +223,21 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
 std::filesystem::path placeOf(const std::string& file) {
   std::error_code ignored;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+}
+
+// What only the core pipeline draws is not left out silently.
+void checkPipeline(const RenderOptions& options) {
+  pipelines::checkPipelineName(options.pipeline);
+  if (options.pipeline == "lund") return;
+  const std::pair<const char*, bool> flags[] = {{"--aov", !options.aovs.empty()},
+                                                {"--deep", !options.deep.empty()},
+                                                {"--deep-shadow", !options.deepShadows.empty()},
+                                                {"--half-res-smoke", options.halfResolutionSmoke},
+                                                {"--reference", options.reference}};
+  for (const auto& [flag, given] : flags)
+    if (given)
+      fail(ExitCode::Usage, "{}: --pipeline {} has no such thing: leave out one of them", flag,
+           options.pipeline);
 }
 
 // Every output is checked before the long work: it can be written, and is no other file of this run.
@@ -326,26 +379,6 @@ void checkWithoutScene(const RenderOptions& options) {
     if (is) fail(ExitCode::Usage, "{}: is for a scene: name a .gltf or .glb file", name);
 }
 
-pipelines::Quality chooseQuality(const RenderOptions& options) {
-  pipelines::Quality quality = pipelines::qualityNamed(options.quality);
-  if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
-  quality.exactShadowResolution = options.shadowResolution.has_value();
-  quality.shadowError = options.shadowError.value_or(quality.shadowError);
-  quality.exactShadowError = options.shadowError.has_value();
-  if (!options.shadowFilter.empty())
-    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
-  if (!options.shadowMemory.empty())
-    quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
-  quality.scatteringOctaves = options.scatteringOctaves;
-  if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
-  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
-  if (!options.listMemory.empty())
-    quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
-  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
-  return quality;
-}
-
 Shot makeShot(const RenderOptions& options) {
   Shot shot;
   if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
@@ -367,6 +400,7 @@ int render(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
   if (!isOfScene(options))
     fail(ExitCode::Usage, "render: no scene: name a .gltf or .glb file, or smoke with --volume FILE.vdb");
+  checkPipeline(options);
   checkOutputs(options);
   const Shot shot = makeShot(options);
   if (options.dryRun) {

@@ -10,13 +10,14 @@
 #include "base/progress.h"
 #include "base/size_text.h"
 #include "gl/device.h"
-#include "pipelines/linked_lists_gpu.h"
+#include "pipelines/list_prediction.h"
+#include "pipelines/pipeline_gpu.h"
 
 namespace sfumato::app {
 namespace {
 
 // Draws the frame --repeat times; the profiler keeps the times of the last one.
-pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& pipeline, const Shot& shot,
+pipelines::Frame drawFrames(gl::Device& device, pipelines::Pipeline& pipeline, const Shot& shot,
                             const RenderOptions& options, std::vector<double>& seconds) {
   pipelines::Quality quality = shot.quality;
   if (options.lists.empty()) quality.lists.strategy = lists::chooseStrategy(device);
@@ -69,12 +70,13 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   if (!options.statistics.empty()) device.profiler().enable();
 
   RunTimes times;
-  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media, {.budgetBytes = shot.volumeMemory});
+  const auto pipeline = pipelines::makePipeline(options.pipeline, device, shot.scene, shot.media,
+                                                {.budgetBytes = shot.volumeMemory});
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);
 
-  pipelines::Frame frame = drawFrames(device, pipeline, shot, options, times.frameSeconds);
+  pipelines::Frame frame = drawFrames(device, *pipeline, shot, options, times.frameSeconds);
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   noteShadowMaps(frame.statistics);

@@ -2,6 +2,10 @@
 // them.
 #pragma once
 
+#include <optional>
+
+#include "base/choice.h"
+
 namespace sfumato::pipelines {
 
 // None: every light reaches everything. Opaque, Interlaced: shadow maps of a depth, or of a depth and a
@@ -21,7 +25,7 @@ enum class Storage { Exact, Table };
 enum class Passes { One, PerObject };
 
 struct DeferredOptions {
-  ShadowKind shadows = ShadowKind::Deep;
+  std::optional<ShadowKind> shadows;  // none: those that the pipeline is known for
   Interlace interlace = Interlace::Lines;
   Storage storage = Storage::Exact;
   Passes passes = Passes::PerObject;
@@ -29,5 +33,10 @@ struct DeferredOptions {
   double refraction =
       0;  // how far a normal shifts what is seen through a surface, part of the image's height
 };
+
+const base::Choice<ShadowKind>& shadowKinds();  // "none", "opaque", "interlaced", "deep"
+const base::Choice<Interlace>& interlaces();    // "lines", "checkerboard", "full"
+const base::Choice<Storage>& storages();        // "exact", "table"
+const base::Choice<Passes>& passesNames();      // "one", "object"
 
 }  // namespace sfumato::pipelines

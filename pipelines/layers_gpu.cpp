@@ -58,15 +58,16 @@ void SurfaceLayer::bind() const {
 }
 
 LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, int width, int height,
-                           const Quality& quality)
+                           const Quality& quality, ShadowKind usualShadows)
     : scene_(scene),
       view_(viewOf(scene.scene(), camera, width, height)),
       quality_(quality),
+      shadowKind_(quality.deferred.shadows.value_or(usualShadows)),
       viewBlock_(scene.device(), "camera view", sizeof(shared::ViewParams)),
       passBlock_(scene.device(), "layer pass", sizeof(shared::ResolveParams)) {
   view_.params.depthRange.z = depthScale(view_.seen, camera);
   viewBlock_.writeValue(view_.params);
-  if (options().shadows == ShadowKind::Deep) shadows_ = scene.buildShadows(view_, quality);
+  if (shadowKind_ == ShadowKind::Deep) shadows_ = scene.buildShadows(view_, quality);
   const auto faces = facesOf(shadows_, scene.lights().size());
   const Profiler::Scope time(device().profiler(), "light lists");
   lightLists_.emplace(device(), lights::LightListInputs{scene.lights(), faces, viewBlock_, width, height,

@@ -51,10 +51,10 @@ struct Walk {
 
 class LayeredFrame {
  public:
-  // Builds the shadows and the light lists of a frame. Throws Memory where the image is larger than a
-  // texture.
+  // Builds the shadows and the light lists of a frame. `usualShadows`: where the options name none. Throws
+  // Memory where the image is larger than a texture.
   LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, int width, int height,
-               const Quality& quality);
+               const Quality& quality, ShadowKind usualShadows = ShadowKind::Deep);
 
   // An empty layer.
   SurfaceLayer layer(const std::string& label, bool numbered = false) const;
@@ -76,6 +76,7 @@ class LayeredFrame {
   const FrameView& view() const { return view_; }
   const Quality& quality() const { return quality_; }
   const DeferredOptions& options() const { return quality_.deferred; }
+  ShadowKind shadowKind() const { return shadowKind_; }
   size_t pixels() const;
   gl::ShaderDefines storageDefines() const;
   // Of programs that march or light surfaces.
@@ -95,6 +96,7 @@ class LayeredFrame {
   const SceneGpu& scene_;
   FrameView view_;
   Quality quality_;
+  ShadowKind shadowKind_;
   gl::Buffer viewBlock_;
   gl::Buffer passBlock_;
   std::optional<deepshadow::Maps> shadows_;
