@@ -319,10 +319,10 @@ GeneratedScene hallScene(const TriangleCounts& triangles, int lights, double asp
   base::Random random(7);
   for (int i = 0; i < lights; ++i) {
     // From the middle outwards to both ends: few lights are where the camera looks.
-    const dvec3 target(random.uniform(-2.2, 2.2), 0.4,
+    const dvec3 target(random.uniform(-2.8, 2.8), 0.6,
                        -2 + (i % 2 == 0 ? -1 : 0.28) * 0.3 * i * random.uniform(0.8, 1));
-    const dvec3 position = target + dvec3(random.uniform(-1.6, 1.6), 4.6, random.uniform(0.5, 3));
-    scene.lights.push_back(spot(position, target, 55.0 * paleColour(random), 12, 0.42));
+    const dvec3 position = target + dvec3(random.uniform(-1.6, 1.6), 5.4, random.uniform(0.5, 3));
+    scene.lights.push_back(spot(position, target, 60.0 * paleColour(random), 14, 0.62));
   }
   scene.cameras.push_back(cameraFor({0.35, 2.1, 4.6}, {0, 1.35, -4}, 0.85, aspect));
   return made;
