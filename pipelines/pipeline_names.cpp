@@ -9,7 +9,7 @@
 namespace sfumato::pipelines {
 
 const std::vector<std::string>& pipelineNames() {
-  static const std::vector<std::string> names = {"lund", "peeling"};
+  static const std::vector<std::string> names = {"lund", "interlaced", "peeling", "forward", "forward-mask"};
   return names;
 }
 

@@ -73,3 +73,15 @@ bool isTranslucent(PackedSurface surface) {
 vec3 layerPass(PackedSurface surface) {
   return isTranslucent(surface) ? surfacePass(surface) : vec3(0.0);
 }
+
+bool isTranslucentAt(ivec2 pixel) {
+  return isTranslucent(layerSurface(pixel));
+}
+
+vec3 passAt(ivec2 pixel) {
+  return surfacePass(layerSurface(pixel));
+}
+
+vec3 normalAt(ivec2 pixel) {
+  return unpackSurface(layerSurface(pixel)).normal;
+}

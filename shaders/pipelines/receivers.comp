@@ -9,11 +9,9 @@
 #include "shaders/shared/resolve.h"
 #ifdef SMOKE
 #include "shaders/volumes/grid.glsl"
+#include "shaders/shared/view_block.glsl"
 #endif
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ResolveParams params;
 };

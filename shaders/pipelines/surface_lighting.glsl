@@ -1,5 +1,5 @@
 // Light on surfaces.
-#include "shaders/deepshadow/lookup.glsl"
+#include "shaders/deepshadow/shadows.glsl"
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/pixel_ray.glsl"
 

@@ -100,6 +100,8 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ShadowPassParams",
        {sizeof(shared::ShadowPassParams),
         {AT(ShadowPassParams, march), AT(ShadowPassParams, cells), AT(ShadowPassParams, units)}}},
+      {"InterlacedPassParams",
+       {sizeof(shared::InterlacedPassParams), {AT(InterlacedPassParams, lightColour)}}},
       {"ShadowCounters",
        {sizeof(shared::ShadowCounters),
         {AT(ShadowCounters, units), AT(ShadowCounters, unplaced), AT(ShadowCounters, unfinished),
@@ -194,8 +196,8 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 }
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
-  for (const std::string name :
-       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams", "GridData"}) {
+  for (const std::string name : {"ViewParams", "LightPassParams", "ShadowPassParams", "InterlacedPassParams",
+                                 "ResolveParams", "StressParams", "GridData"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;
