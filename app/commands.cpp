@@ -1,15 +1,18 @@
 #include "app/commands.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
 #include <memory>
 
 #include "app/validators.h"
 #include "base/version.h"
+#include "image/tone_map.h"
 #include "lists/strategy.h"
 #include "lists/stress/load.h"
 #include "pipelines/aovs.h"
+#include "pipelines/pipeline_names.h"
+#include "pipelines/post.h"
 #include "pipelines/quality.h"
 
 namespace sfumato::app {
@@ -188,6 +191,38 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->type_name("BYTES|64K|256M|2G");
 }
 
+void addPipeline(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const std::string& help) {
+    return command.add_option(name, value, help)->group("Pipeline");
+  };
+  add("--pipeline", options.pipeline,
+      fmt::format("Draw so: {}; else {}", fmt::join(pipelines::pipelineNames(), ", "), options.pipeline))
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::pipelineNames()));
+  const auto choose = [&](const std::string& name, std::string& value, const std::string& what,
+                          const std::vector<std::string>& names, const std::string& usual) {
+    command.add_option(name, value, fmt::format("{}: {}; else {}", what, fmt::join(names, ", "), usual))
+        ->group("Pipeline")
+        ->type_name("NAME")
+        ->check(oneOf(names));
+  };
+  choose("--shadows", options.shadows, "Shadows of pipelines other than lund", pipelines::shadowKinds().names,
+         "their own");
+  choose("--interlace", options.interlace, "Pixels of translucent surfaces", pipelines::interlaces().names,
+         options.interlace);
+  choose("--storage", options.storage, "Targets: of floats, or of 8 and 10 bits", pipelines::storages().names,
+         options.storage);
+  choose("--passes", options.passes, "Of reentrant: for all translucent surfaces, or an object",
+         pipelines::passesNames().names, options.passes);
+  add("--layers", options.layers, "Layers that are peeled at most: 1 to 10000, else all")
+      ->type_name("N")
+      ->check(wholeBetween(1, 10000));
+  add("--refraction", options.refraction,
+      "Bend what is seen through surfaces: 0 to 1, of the image's height, else 0")
+      ->type_name("PART")
+      ->check(between(0.0, 1.0));
+}
+
 void addScattering(CLI::App& command, RenderOptions& options) {
   // Alone it is a flag, so that what stands behind it is not taken for a number of octaves.
   command
@@ -260,9 +295,6 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE")
       ->check(fileName())
       ->allow_extra_args(false);
-  add("--exposure", options.exposureStops, "Brighten the .png: -30 to 30, else 0")
-      ->type_name("STOPS")
-      ->check(between(-30.0, 30.0));
   add("--aov", options.aovs,
       fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
                   fmt::join(pipelines::aovNames(), ", ")))
@@ -287,6 +319,30 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   command
       .add_flag("-n,--dry-run", options.dryRun, "Read all files, print the plan, write nothing; needs no GL")
       ->group("Output");
+}
+
+void addDisplay(CLI::App& command, DisplayOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Pictures (.png; an .exr keeps linear radiance)");
+  };
+  add("--exposure", options.exposureStops, "Brighten them: -30 to 30, else 0")
+      ->type_name("STOPS")
+      ->check(between(-30.0, 30.0));
+  add("--tonemap", options.toneCurve, "neutral (Khronos), reinhard (by log-average luminance); else neutral")
+      ->type_name("NAME")
+      ->check(oneOf(image::toneCurveNames()));
+  add("--white", options.white, "What reinhard shows white: 1e-6 to 1e9, else the brightest there")
+      ->type_name("LUMINANCE")
+      ->check(between(1e-6, 1e9));
+  add("--bloom", options.bloom, "Let bright parts glow: separable, mipmap or off; else off")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::bloomNames()));
+  add("--bloom-strength", options.bloomStrength, "Part of their light that glows: 0 to 10, else 0.2")
+      ->type_name("PART")
+      ->check(between(0.0, 10.0));
+  add("--aa", options.antiAliasing, "edges: blur across the edges of opaque surfaces; else off")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::antiAliasingNames()));
 }
 
 void addTolerance(CLI::App& command, const std::string& what, Tolerance& tolerance) {
@@ -445,10 +501,12 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addView(command, options);
   addQuality(command, options);
   addScattering(command, options);
+  addPipeline(command, options);
   addLists(command, options);
   addReference(command, options);
   addAmbient(command, options);
   addOutput(command, options);
+  addDisplay(command, options.display);
   addDevice(command, options.device);
   addFlags(command, verbosity);
   return command;

@@ -17,6 +17,16 @@ struct DeviceChoice {
   std::string shaderDir;
 };
 
+// What shapes pictures for a screen (.png), and leaves an .exr as it is.
+struct DisplayOptions {
+  double exposureStops = 0;
+  std::string toneCurve = "neutral";
+  std::optional<double> white;  // luminance, of Reinhard's curve; none: the largest of the picture
+  std::string bloom = "off";
+  std::optional<double> bloomStrength;
+  std::string antiAliasing = "off";
+};
+
 struct RenderOptions {
   DeviceChoice device;
   std::string commandLine;           // as typed, for the metadata
@@ -40,6 +50,13 @@ struct RenderOptions {
   std::optional<glm::dvec3> lookAt;
   std::optional<double> fovDegrees;
   std::optional<double> timeSeconds;  // pose of the scene's animations; none: at rest
+  std::string pipeline = "lund";
+  std::string shadows;  // of a pipeline other than lund: pipelines/deferred_options.h; empty: its own
+  std::string interlace = "lines";
+  std::string storage = "exact";
+  std::string passes = "object";
+  int layers = 0;
+  double refraction = 0;
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
@@ -56,7 +73,7 @@ struct RenderOptions {
   std::optional<double> ambientOcclusionRadius;  // m
   bool reference = false;                        // drawn by the CPU reference
   int samples = 1;                               // a side of the pixel, of the reference
-  double exposureStops = 0;
+  DisplayOptions display;
   std::vector<std::string> aovs;                                 // see pipelines/aovs.h
   std::string deep;                                              // .exr, empty: none
   std::vector<std::pair<std::string, std::string>> deepShadows;  // a light's name or number, and an .exr

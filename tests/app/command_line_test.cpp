@@ -31,6 +31,10 @@ TEST(CommandLine, NamesTheArgumentThatIsWrong) {
                    {{"render", "a.gltf", "--res", "8x8", "--res", "9x9"}, 2, "--res: takes WxH, once"},
                    {{"render", "a.gltf", "--look-at", "1", "2"}, 2, "--look-at: takes X Y Z"},
                    {{"render", "a.gltf", "--quality", "foo"}, 2, "--quality: \"foo\" is none of draft, "},
+                   {{"render", "a.gltf", "--tonemap", "foo"}, 2, "--tonemap: \"foo\" is none of neutral, "},
+                   {{"render", "a.gltf", "--bloom", "on"}, 2, "--bloom: \"on\" is none of off, separable, "},
+                   {{"render", "a.gltf", "--aa", "4"}, 2, "--aa: \"4\" is none of off, edges"},
+                   {{"render", "a.gltf", "--aa"}, 2, "--aa: takes NAME"},
                });
 }
 
@@ -52,6 +56,8 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--step", 1, {"0", "100.1", "nan", "-nan", "inf", "", "foo", "1 2", "1,5", "++1", "5e"}},
            {"--fov", 1, {"-45", "180", "nan"}},
            {"--exposure", 1, {"31", "nan"}},
+           {"--white", 1, {"0", "-1", "1e10", "nan"}},
+           {"--bloom-strength", 1, {"-0.1", "10.1", "nan"}},
            {"--volume-scale", 1, {"-1", "nan"}},
            {"--volume-g", 1, {"1", "nan"}},
            {"--volume-extinction", 3, {"-1", "1e7", "nan"}},

@@ -18,6 +18,7 @@
 #include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
+#include "shaders/shared/post.h"
 #include "shaders/shared/resolve.h"
 #include "shaders/shared/stress.h"
 #include "shaders/shared/surface.h"
@@ -63,6 +64,8 @@ const std::map<std::string, Layout>& cppLayouts() {
         {AT(MaterialData, baseColour), AT(MaterialData, emissive), AT(MaterialData, specularColour),
          AT(MaterialData, factors), AT(MaterialData, flags), AT(MaterialData, shadow),
          AT(MaterialData, uvTransforms)}}},
+      {"PostParams",
+       {sizeof(shared::PostParams), {AT(PostParams, sizes), AT(PostParams, step), AT(PostParams, light)}}},
       {"PackedSurface",
        {sizeof(shared::PackedSurface),
         {AT(PackedSurface, normal), AT(PackedSurface, geometricNormal), AT(PackedSurface, diffuseRg),
@@ -101,6 +104,8 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ShadowPassParams",
        {sizeof(shared::ShadowPassParams),
         {AT(ShadowPassParams, march), AT(ShadowPassParams, cells), AT(ShadowPassParams, units)}}},
+      {"InterlacedPassParams",
+       {sizeof(shared::InterlacedPassParams), {AT(InterlacedPassParams, lightColour)}}},
       {"ShadowCounters",
        {sizeof(shared::ShadowCounters),
         {AT(ShadowCounters, units), AT(ShadowCounters, unplaced), AT(ShadowCounters, unfinished),
@@ -199,8 +204,9 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 }
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
-  for (const std::string name : {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams",
-                                 "StressParams", "GridData", "OcclusionParams"}) {
+  for (const std::string name :
+       {"ViewParams", "LightPassParams", "ShadowPassParams", "InterlacedPassParams", "ResolveParams",
+        "StressParams", "GridData", "OcclusionParams", "PostParams"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;

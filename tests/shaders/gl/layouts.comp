@@ -7,6 +7,7 @@
 #include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
+#include "shaders/shared/post.h"
 #include "shaders/shared/resolve.h"
 #include "shaders/shared/stress.h"
 #include "shaders/shared/surface.h"
