@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "image/image_file.h"
 #include "image/metrics.h"
+#include "pipelines/pipeline_names.h"
 #include "tests/app/program.h"
 #include "tests/gl/test_device.h"
 #include "volumes/vdb_file.h"
@@ -543,6 +544,16 @@ TEST_F(CommandLineRender, ShapesPicturesAndKeepsRadiance) {
       EXPECT_GT(image::compare(picture("out.png"), plain).relativeRmse, 1e-3);
       EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos);
     }
+  }
+}
+
+TEST_F(CommandLineRender, ShapesPicturesOfEveryPipeline) {
+  for (const std::string& pipeline : pipelines::pipelineNames()) {
+    SCOPED_TRACE(pipeline);
+    render({"scene.gltf", "--pipeline", pipeline, "-o", "plain.exr", "-o", "plain.png"});
+    render({"scene.gltf", "--pipeline", pipeline, "-o", "out.exr", "-o", "out.png", "--aa", "edges"});
+    EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
+    EXPECT_GT(image::compare(picture("out.png"), picture("plain.png")).relativeRmse, 1e-2);
   }
 }
 
