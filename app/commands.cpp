@@ -261,6 +261,31 @@ void addReference(CLI::App& command, RenderOptions& options) {
       ->group("Quality");
 }
 
+void addAmbient(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--ambient", [&options](const std::string& text) { options.ambient = parseColour(text); },
+          "Light surfaces from all around: 0 to 1e6 each, else as the scene says")
+      ->type_name("R,G,B")
+      ->check(colour())
+      ->group("Quality");
+  CLI::Option* occlusion =
+      command
+          .add_option("--ssao", options.ambientOcclusion,
+                      "Let surfaces shadow that light: off, full, half, quarter; else off")
+          ->type_name("SIZE")
+          ->check(oneOf(pipelines::occlusionSizeNames()))
+          ->excludes("--reference")
+          ->group("Quality");
+  command
+      .add_option("--ssao-radius", options.ambientOcclusionRadius,
+                  "Within this distance: 1e-6 to 1e6, else what suits the scene")
+      ->type_name("METRES")
+      ->check(between(1e-6, 1e6))
+      ->needs(occlusion)
+      ->group("Quality");
+}
+
 void addOutput(CLI::App& command, RenderOptions& options) {
   const auto add = [&](const char* name, auto& value, const std::string& help) {
     return command.add_option(name, value, help)->group("Output");
@@ -479,6 +504,7 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addPipeline(command, options);
   addLists(command, options);
   addReference(command, options);
+  addAmbient(command, options);
   addOutput(command, options);
   addDisplay(command, options.display);
   addDevice(command, options.device);

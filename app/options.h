@@ -68,8 +68,11 @@ struct RenderOptions {
   std::string lists;          // a strategy; empty: the device's
   std::string listMemory;     // empty: what the device allows
   std::string onOverflow = "window";
-  bool reference = false;  // drawn by the CPU reference
-  int samples = 1;         // a side of the pixel, of the reference
+  std::optional<glm::dvec3> ambient;
+  std::string ambientOcclusion = "off";
+  std::optional<double> ambientOcclusionRadius;  // m
+  bool reference = false;                        // drawn by the CPU reference
+  int samples = 1;                               // a side of the pixel, of the reference
   DisplayOptions display;
   std::vector<std::string> aovs;                                 // see pipelines/aovs.h
   std::string deep;                                              // .exr, empty: none

@@ -91,13 +91,26 @@ bool glows(const scene::Scene& scene) {
 // Sets come without lights as often as with them.
 void lightTheDark(const RenderOptions& options, scene::Scene& scene) {
   if (!scene.lights.empty()) return;
-  if (glows(scene)) {
+  if (scene.ambient != glm::dvec3(0)) {
+    if (!scene.volumes.empty())
+      base::warn(
+          "{}: no lights but the ambient one, of which smoke scatters nothing: put lights into the file",
+          options.scene);
+  } else if (glows(scene)) {
     base::warn("{}: no lights: only what glows is seen", options.scene);
   } else {
     scene::addDefaultLights(scene);
     base::warn("{}: no lights: two directional ones are added: put lights into the file to choose them",
                options.scene);
   }
+}
+
+pipelines::AmbientOcclusionOptions chooseOcclusion(const RenderOptions& options, const scene::Scene& scene) {
+  const pipelines::OcclusionSize size = pipelines::occlusionSizeNamed(options.ambientOcclusion);
+  if (size == pipelines::OcclusionSize::Off) return {};
+  if (scene.ambient == glm::dvec3(0))
+    base::warn("--ssao: there is no ambient light to take from: give some with --ambient");
+  return {size, options.ambientOcclusionRadius.value_or(pipelines::usualOcclusionRadius(scene))};
 }
 
 // The camera that --camera names, the first one, or nothing.
@@ -202,6 +215,11 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                                                              pipelines::nameOf(shot.quality.smokeShadows)));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
   }
+  if (shot.scene.ambient != glm::dvec3(0))
+    result.emplace_back("sfumato:ambient", numbers(shot.scene.ambient));
+  if (const auto& occlusion = shot.quality.ambientOcclusion; occlusion.size != pipelines::OcclusionSize::Off)
+    result.emplace_back("sfumato:ssao",
+                        fmt::format("{}, radius {} m", pipelines::nameOf(occlusion.size), occlusion.radius));
   for (size_t i = 0; i < shot.media.size(); ++i)
     result.emplace_back(
         fmt::format("sfumato:volume{}", i),
@@ -366,9 +384,11 @@ Shot makeShot(const RenderOptions& options) {
   shot.media = scene::readMedia(shot.scene);
   scene::addFireLights(shot.scene, shot.media);
   if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
+  shot.scene.ambient = options.ambient.value_or(shot.scene.ambient);
   lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
+  shot.quality.ambientOcclusion = chooseOcclusion(options, shot.scene);
   if (!options.volumeMemory.empty())
     shot.volumeMemory = base::bytesNamed(options.volumeMemory, "--volume-memory");
   shot.aovs = wantedAovs(options);

@@ -16,9 +16,11 @@ for scene in out/gallery/*.gltf; do
   if [[ $scene == */many_lights.gltf ]]; then quality+=(--aov lights); fi
   if [[ $scene == */smoke.gltf ]]; then quality+=(--aov shadow-nodes); fi
   if [[ $scene == */multiscatter.gltf ]]; then quality+=(--multiscatter); fi
+  if [[ $scene == */courtyard.gltf ]]; then quality+=(--ssao full); fi
   echo "== $picture"
   build/release/app/sfumato render "$scene" --res 640x360 "${quality[@]}" -o "$picture" "$@"
 done
+build/release/app/sfumato render out/gallery/courtyard.gltf --res 640x360 --quality high -o docs/images/courtyard_open.png "$@"
 
 # The pictures of docs/post_processing.md: NAME SCENE FLAGS...
 shape() {

@@ -260,13 +260,20 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
 Walk LayeredFrame::startWalk() const {
   std::vector<shared::RayState> states(
       pixels(), {.depth = view_.params.depthRange.x, .throughputR = 1, .throughputG = 1, .throughputB = 1});
-  return {gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0};
+  Walk walk{gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0, {}};
+  if (options().refraction > 0) {
+    walk.bends = gl::Buffer(device(), "bends", pixels() * sizeof(glm::uvec2));
+    walk.bends.clear();
+  }
+  return walk;
 }
 
 size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk) {
   const Profiler::Scope time(device().profiler(), "walk");
   gl::ShaderDefines defines = lightingDefines();
   if (last) defines.emplace_back("LAST", "1");
+  const bool bent = options().refraction > 0;
+  if (bent) defines.emplace_back("BENT", "1");
   shared::ResolveParams params = this->params();
   params.options.x = ++walk.layers;
   return dispatchWalk(
@@ -274,6 +281,7 @@ size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light,
       [&] {
         layer.bind();
         light.bind(TEXTURE_LAYER_LIGHT);
+        if (bent) walk.bends.bindStorage(STORAGE_BENDS);
       },
       walk);
 }

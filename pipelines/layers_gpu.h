@@ -47,8 +47,9 @@ struct LayerDraw {
 
 // Rays, one a pixel, that are taken from layer to layer and gather what is seen.
 struct Walk {
-  gl::Buffer rays;  // shared::RayState
-  int layers = 0;   // that they were taken to
+  gl::Buffer rays;   // shared::RayState
+  int layers = 0;    // that they were taken to
+  gl::Buffer bends;  // of what is seen through the first surface, where there is refraction
 };
 
 // Which shadows a pipeline has by itself. Where it adds up each light once, interlaced maps need room for

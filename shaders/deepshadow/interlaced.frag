@@ -1,6 +1,7 @@
 // The nearest surface of each texel of a light's shadow map (Aladagli 2015, section 3.2.1). A line above or below one that
 // shows a translucent surface, which only odd ones do, shows the opaque one behind it.
 #include "shaders/deepshadow/way_through.glsl"
+#include "shaders/shared/deepshadow.h"
 
 layout(location = 0) out float depth;     // from the light; below 0: of a translucent surface
 #ifdef TRANSLUCENT
@@ -27,7 +28,8 @@ void main() {
   vec3 colour = params.lightColour.rgb;
   letThrough = vec4(min(colour, base.rgb) / max(colour, 1e-20), base.a * (1.0 - tau));
 #else
-  letThrough = vec4(pow(pass, vec3(wayThrough())), 0.0);
+  float way = wayThrough();
+  letThrough = vec4(way == 1.0 ? pass : pow(pass, vec3(way)), 0.0);  // some drivers' pow(x, 1) is not x
 #endif
 #endif
 }

@@ -30,6 +30,7 @@
 #define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
 #define STORAGE_LIST_NODES 17     // keys or links, LIST_MAX_BANKS of them
 #define STORAGE_LIST_PAYLOADS 21  // likewise
+#define STORAGE_BENDS 9             // of each pixel: see layer_walk.comp
 #define STORAGE_DEEP_RAYS 25      // the rays that are recorded: see deep_events.glsl
 #define STORAGE_DEEP_EVENTS 26    // DeepEvent[]
 
@@ -46,6 +47,7 @@
 #define TEXTURE_TRANSMISSION 4
 #define TEXTURE_SPECULAR 5
 #define TEXTURE_SPECULAR_COLOUR 6
+#define TEXTURE_OCCLUSION 6  // of ambient light, where surfaces of a G-buffer are lit
 #define TEXTURE_OPAQUE_DEPTH 7
 #define TEXTURE_SURFACE_0 8
 #define TEXTURE_SURFACE_1 9
@@ -68,3 +70,6 @@
 #define TEXTURE_PEELED_DEPTH 14
 #define TEXTURE_PEELED_ID 17
 #define TEXTURE_GRIDS 20  // and the units after it
+
+// Image units
+#define IMAGE_RESULT 0  // what a pass of images writes

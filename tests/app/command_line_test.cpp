@@ -70,6 +70,7 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--shadow-res", 1, {"31", "64.5", "1e3", "nan"}},
            {"--shadow-error", 1, {"-0.1", "0.51", "nan", "foo"}},
            {"--repeat", 1, {"0", "1001"}},
+           {"--ssao-radius", 1, {"0", "nan", "-1", "1e7"}},
            {"--samples", 1, {"0", "65", "1.5", "nan"}},
        }) {
     for (const std::string& text : row.wrong) {
@@ -79,6 +80,19 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
       expectError(runProgram(folder().path(), arguments), 2, row.option + ": \"" + text + "\" is not a ");
     }
   }
+}
+
+TEST(CommandLine, TakesOnlyAmbientLightThatCanBe) {
+  for (const char* text :
+       {"", "-1", "1,2", "1,2,3,4", "1,2,", ",,", "1 2 3", "nan", "0,0,-0.1", "1e7", "red"})
+    expectError(runProgram(folder().path(), {"render", "a.gltf", "--ambient", text}), 2,
+                "--ambient: \"" + std::string(text) + "\" is not a colour");
+  expectErrors(folder().path(),
+               {
+                   {{"render", "a.gltf", "--ssao", "tiny"}, 2, "--ssao: \"tiny\" is none of off, full, "},
+                   {{"render", "a.gltf", "--ssao", "half", "--reference"}, 2, "--reference excludes --ssao"},
+                   {{"render", "a.gltf", "--ssao-radius", "1"}, 2, "--ssao-radius requires --ssao"},
+               });
 }
 
 TEST(CommandLine, ShowsHelpAndVersion) {
