@@ -32,11 +32,12 @@ pipelines::PostOptions wantedPostProcessing(const RenderOptions& options) {
     fail(ExitCode::Usage, "--white: is of a curve that was not asked for: add --tonemap reinhard");
   if (display.bloomStrength && display.bloom == "off")
     fail(ExitCode::Usage, "--bloom-strength: of no bloom: add --bloom mipmap or separable");
-  const char* flag = firstFlag(display);
+  const char* flag = options.effects.empty() ? firstFlag(display) : nullptr;
   const bool hasPicture =
       std::any_of(options.outputs.begin(), options.outputs.end(), std::not_fn(image::holdsLayers));
   if (flag && !hasPicture && !options.dryRun)
     fail(ExitCode::Usage, "{}: shapes a .png only, an .exr keeps linear radiance: name a .png with -o", flag);
+  if (!hasPicture) return {};
   pipelines::PostOptions post{.bloom = pipelines::bloomNamed(display.bloom),
                               .antiAliasing = pipelines::antiAliasingNamed(display.antiAliasing)};
   post.bloomStrength = display.bloomStrength.value_or(post.bloomStrength);

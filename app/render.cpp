@@ -161,7 +161,8 @@ pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.shadowResolution =
+      options.shadowResolution.value_or(options.mostShadowResolution.value_or(quality.shadowResolution));
   quality.exactShadowResolution = options.shadowResolution.has_value();
   quality.shadowError = options.shadowError.value_or(quality.shadowError);
   quality.exactShadowError = options.shadowError.has_value();
