@@ -156,15 +156,16 @@ void LayeredFrame::bind(const shared::ResolveParams& params) {
   scene_.volumes().bind();
 }
 
+std::array<gl::Format, 3> LayeredFrame::surfaceFormats() const {
+  if (options().storage == Storage::Table) return {gl::Format::RGBA8, gl::Format::RGB10A2, gl::Format::RGBA8};
+  return {gl::Format::RGBA32UI, gl::Format::RGBA32UI, gl::Format::RG32UI};
+}
+
 SurfaceLayer LayeredFrame::layer(const std::string& label, bool numbered) const {
   const glm::ivec3 size(view_.width, view_.height, 1);
-  const bool table = options().storage == Storage::Table;
-  const gl::Format formats[] = {table ? gl::Format::RGBA8 : gl::Format::RGBA32UI,
-                                table ? gl::Format::RGB10A2 : gl::Format::RGBA32UI,
-                                table ? gl::Format::RGBA8 : gl::Format::RG32UI};
   SurfaceLayer result;
-  for (size_t i = 0; i < std::size(formats); ++i)
-    result.surface[i] = gl::Texture(device(), label, {.format = formats[i], .size = size});
+  for (size_t i = 0; i < std::size(result.surface); ++i)
+    result.surface[i] = gl::Texture(device(), label, {.format = surfaceFormats()[i], .size = size});
   result.depth = gl::Texture(device(), label + " depth", {.format = gl::Format::R32F, .size = size});
   result.depthTest =
       gl::Texture(device(), label + " depth test", {.format = gl::Format::Depth32FStencil8, .size = size});

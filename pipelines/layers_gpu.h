@@ -3,6 +3,7 @@
 // together from. One sample a pixel, at its centre; the whole image at once.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -95,6 +96,7 @@ class LayeredFrame {
   size_t pixels() const;
   gl::ShaderDefines storageDefines() const;
   gl::ShaderDefines interlaceDefines() const;
+  std::array<gl::Format, 3> surfaceFormats() const;
   // Of programs that march or light surfaces.
   gl::ShaderDefines lightingDefines() const;
   // Lights in the order of the light lists.

@@ -17,6 +17,7 @@
 #define STORAGE_LIST_COUNTERS 5
 #define STORAGE_LIGHTS 6            // LightData[]
 #define STORAGE_AOVS 7              // AovPixel[]
+#define STORAGE_ROUTED_MET 7        // uvec2[]: keys of the last fragments that rays have met
 #define STORAGE_RECEIVER_DEPTHS 8   // of each cell of the light lists
 #define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
 #define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
@@ -69,6 +70,9 @@
 #define TEXTURE_LAYER_LIGHT 13
 #define TEXTURE_PEELED_DEPTH 14
 #define TEXTURE_PEELED_ID 17
+#define TEXTURE_ROUTED_KEYS 14  // of the fragments in samples: depth, number
+#define TEXTURE_ROUTED_COUNTS 13  // of fragments of a pixel
+#define TEXTURE_ROUTED_PAGE 14  // while they are drawn
 #define TEXTURE_GRIDS 20  // and the units after it
 
 // Image units
