@@ -334,19 +334,19 @@ void addDisplay(CLI::App& command, DisplayOptions& options) {
       ->check(between(-30.0, 30.0));
   add("--tonemap", options.toneCurve, "neutral (Khronos), reinhard (by log-average luminance); else neutral")
       ->type_name("NAME")
-      ->check(oneOf(image::toneCurveNames()));
+      ->check(oneOf(image::toneCurves().names));
   add("--white", options.white, "What reinhard shows white: 1e-6 to 1e9, else the brightest there")
       ->type_name("LUMINANCE")
       ->check(between(1e-6, 1e9));
   add("--bloom", options.bloom, "Let bright parts glow: separable, mipmap or off; else off")
       ->type_name("NAME")
-      ->check(oneOf(pipelines::bloomNames()));
+      ->check(oneOf(pipelines::blooms().names));
   add("--bloom-strength", options.bloomStrength, "Part of their light that glows: 0 to 10, else 0.2")
       ->type_name("PART")
       ->check(between(0.0, 10.0));
   add("--aa", options.antiAliasing, "edges: blur across the edges of opaque surfaces; else off")
       ->type_name("NAME")
-      ->check(oneOf(pipelines::antiAliasingNames()));
+      ->check(oneOf(pipelines::antiAliasings().names));
 }
 
 // What a preset sets, unless a flag did.
@@ -359,6 +359,7 @@ void applyEffects(const CLI::App& command, RenderOptions& options) {
   if (isFree("--aa")) options.display.antiAliasing = "edges";
   if (isFree("--ssao")) options.ambientOcclusion = effects->ambientOcclusion;
   if (isFree("--shadow-res") && isFree("--quality")) options.mostShadowResolution = effects->shadowResolution;
+  options.routedSamples = effects->routedSamples;
 }
 
 void addEffects(CLI::App& command, RenderOptions& options) {

@@ -38,8 +38,8 @@ pipelines::PostOptions wantedPostProcessing(const RenderOptions& options) {
   if (flag && !hasPicture && !options.dryRun)
     fail(ExitCode::Usage, "{}: shapes a .png only, an .exr keeps linear radiance: name a .png with -o", flag);
   if (!hasPicture) return {};
-  pipelines::PostOptions post{.bloom = pipelines::bloomNamed(display.bloom),
-                              .antiAliasing = pipelines::antiAliasingNamed(display.antiAliasing)};
+  pipelines::PostOptions post{.bloom = pipelines::blooms().named(display.bloom),
+                              .antiAliasing = pipelines::antiAliasings().named(display.antiAliasing)};
   post.bloomStrength = display.bloomStrength.value_or(post.bloomStrength);
   return post;
 }
@@ -50,7 +50,7 @@ void measureBrightness(const RenderOptions& options, const Shot& shot, Drawn& dr
 }
 
 image::ToneMapping toneMappingOf(const DisplayOptions& options, const image::Brightness& brightness) {
-  if (image::toneCurveNamed(options.toneCurve) == image::ToneCurve::Reinhard)
+  if (image::toneCurves().named(options.toneCurve) == image::ToneCurve::Reinhard)
     return image::reinhard(brightness, options.exposureStops, options.white);
   return {.scale = std::exp2(options.exposureStops)};
 }

@@ -4,7 +4,7 @@ namespace sfumato::app {
 
 const std::vector<Effects>& allEffects() {
   static const std::vector<Effects> all = {
-      {"low", "quarter", 512}, {"medium", "half", 1024}, {"high", "full", 2048}};
+      {"low", "quarter", 512, 4}, {"medium", "half", 1024, 8}, {"high", "full", 2048, 8}};
   return all;
 }
 

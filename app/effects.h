@@ -12,6 +12,7 @@ struct Effects {
   std::string name;
   std::string ambientOcclusion;  // as --ssao takes it
   int shadowResolution;          // most texels a side of a shadow map
+  int routedSamples;             // a pixel, of stencil-routed fragments, where the driver has them
 };
 
 const std::vector<Effects>& allEffects();

@@ -154,6 +154,7 @@ pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
   deferred.storage = pipelines::storages().named(options.storage);
   deferred.passes = pipelines::passesNames().named(options.passes);
   deferred.layers = options.layers;
+  deferred.samples = options.routedSamples;
   deferred.refraction = options.refraction;
   return deferred;
 }
