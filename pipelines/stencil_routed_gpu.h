@@ -26,6 +26,7 @@ class StencilRoutedPipeline : public Pipeline {
   // room, or its fullest pixel more fragments than 2,048 layers hold.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
+  const SceneGpu& scene() const override { return scene_; }
 
  private:
   SceneGpu scene_;
