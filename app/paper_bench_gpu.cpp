@@ -1,5 +1,7 @@
 // `sfumato bench papers`: the performance tests of Aladagli 2015 and Ferko 2012 on scenes of their sizes.
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <set>
 #include <tuple>
 
@@ -25,21 +27,15 @@ bool isThere(const PaperSetting& setting) {
   return std::ranges::find(names, setting.pipeline) != names.end();
 }
 
-// What is to be drawn, each once, scene by scene.
-std::set<PaperSetting> settingsOf(const std::vector<PaperTable>& tables) {
-  std::set<PaperSetting> settings;
+// What is to be drawn, each once, by the scene and its size.
+using SceneKey = std::tuple<PaperScene, size_t, size_t, int, int, int>;
+std::map<SceneKey, std::set<PaperSetting>> settingsOf(const std::vector<PaperTable>& tables) {
+  std::map<SceneKey, std::set<PaperSetting>> settings;
   for (const PaperTable& table : tables)
     for (const std::vector<PaperSetting>& row : table.settings)
-      for (const PaperSetting& setting : row)
-        if (isThere(setting)) settings.insert(setting);
+      for (const PaperSetting& s : row)
+        if (isThere(s)) settings[{s.scene, s.opaque, s.translucent, s.lights, s.width, s.height}].insert(s);
   return settings;
-}
-
-bool sameScene(const PaperSetting& a, const PaperSetting& b) {
-  const auto key = [](const PaperSetting& s) {
-    return std::tuple(s.scene, s.opaque, s.translucent, s.drawsTranslucent, s.lights, s.width, s.height);
-  };
-  return key(a) == key(b);
 }
 
 pipelines::Quality qualityOf(gl::Device& device, const PaperSetting& setting) {
@@ -55,20 +51,41 @@ pipelines::Quality qualityOf(gl::Device& device, const PaperSetting& setting) {
   return quality;
 }
 
+// A scene with and without its translucent objects, and the pipelines that draw it.
+class DrawnScene {
+ public:
+  explicit DrawnScene(gl::Device& device) : device_(device) {}
+
+  TimedFrame draw(const PaperSetting& setting) {
+    scene::GeneratedScene& made = scenes_[setting.drawsTranslucent];
+    if (made.scene.cameras.empty()) made = sceneOf(setting);
+    auto& pipeline = pipelines_[{setting.drawsTranslucent, setting.pipeline}];
+    if (!pipeline) pipeline = pipelines::makePipeline(setting.pipeline, device_, made.scene, made.media);
+    return timeFrame(*pipeline, made.scene.cameras.front(), setting.width, setting.height,
+                     qualityOf(device_, setting));
+  }
+
+ private:
+  gl::Device& device_;
+  std::map<bool, scene::GeneratedScene> scenes_;
+  std::map<std::pair<bool, std::string>, std::unique_ptr<pipelines::Pipeline>> pipelines_;
+};
+
+// The settings of a scene take turns, so that what else the machine does meets all of them alike. The first
+// turn compiles what is needed.
 void measure(gl::Device& device, const PapersOptions& options, PaperResult& result) {
-  const std::set<PaperSetting> settings = settingsOf(result.tables);
-  base::Progress progress("bench", static_cast<long>(settings.size()));
-  scene::GeneratedScene made;
-  const PaperSetting* last = nullptr;
-  for (const PaperSetting& setting : settings) {
-    if (last == nullptr || !sameScene(*last, setting)) made = sceneOf(setting);
-    last = &setting;
-    const auto pipeline = pipelines::makePipeline(setting.pipeline, device, made.scene, made.media);
-    TimedFrames frames = timeFrames(*pipeline, made.scene.cameras.front(), setting.width, setting.height,
-                                    qualityOf(device, setting), options.repeat);
-    result.milliseconds[setting] = std::move(frames.milliseconds);
-    result.pictures[nameOf(setting)] = std::move(frames.last.radiance);
-    progress.advance();
+  const auto scenes = settingsOf(result.tables);
+  base::Progress progress("bench", static_cast<long>(scenes.size()) * (options.repeat + 1));
+  for (const auto& [key, settings] : scenes) {
+    DrawnScene drawn(device);
+    for (int turn = 0; turn <= options.repeat; ++turn) {
+      for (const PaperSetting& setting : settings) {
+        TimedFrame timed = drawn.draw(setting);
+        if (turn > 0) result.milliseconds[setting].push_back(timed.milliseconds);
+        result.pictures[nameOf(setting)] = std::move(timed.frame.radiance);
+      }
+      progress.advance();
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // The nearest surface of each texel of a light's shadow map (Aladagli 2015, section 3.2.1). A line above or below one that
 // shows a translucent surface, which only odd ones do, shows the opaque one behind it.
 #include "shaders/deepshadow/way_through.glsl"
+#include "shaders/shared/deepshadow.h"
 
 layout(location = 0) out float depth;     // from the light; below 0: of a translucent surface
 #ifdef TRANSLUCENT
