@@ -27,14 +27,14 @@ bool isThere(const PaperSetting& setting) {
   return std::ranges::find(names, setting.pipeline) != names.end();
 }
 
-// What is to be drawn, each once, by the scene and its size.
-using SceneKey = std::tuple<PaperScene, size_t, size_t, int, int, int>;
-std::map<SceneKey, std::set<PaperSetting>> settingsOf(const std::vector<PaperTable>& tables) {
-  std::map<SceneKey, std::set<PaperSetting>> settings;
+// What is to be drawn, each once, by what it is compared with: of one scene, lights and size.
+using GroupKey = std::tuple<PaperScene, int, int, int>;
+std::map<GroupKey, std::set<PaperSetting>> settingsOf(const std::vector<PaperTable>& tables) {
+  std::map<GroupKey, std::set<PaperSetting>> settings;
   for (const PaperTable& table : tables)
     for (const std::vector<PaperSetting>& row : table.settings)
       for (const PaperSetting& s : row)
-        if (isThere(s)) settings[{s.scene, s.opaque, s.translucent, s.lights, s.width, s.height}].insert(s);
+        if (isThere(s)) settings[{s.scene, s.lights, s.width, s.height}].insert(s);
   return settings;
 }
 
@@ -51,33 +51,37 @@ pipelines::Quality qualityOf(gl::Device& device, const PaperSetting& setting) {
   return quality;
 }
 
-// A scene with and without its translucent objects, and the pipelines that draw it.
-class DrawnScene {
+// The scenes of a group, and the pipelines that draw them.
+class DrawnScenes {
  public:
-  explicit DrawnScene(gl::Device& device) : device_(device) {}
+  explicit DrawnScenes(gl::Device& device) : device_(device) {}
 
   TimedFrame draw(const PaperSetting& setting) {
-    scene::GeneratedScene& made = scenes_[setting.drawsTranslucent];
-    if (made.scene.cameras.empty()) made = sceneOf(setting);
-    auto& pipeline = pipelines_[{setting.drawsTranslucent, setting.pipeline}];
-    if (!pipeline) pipeline = pipelines::makePipeline(setting.pipeline, device_, made.scene, made.media);
-    return timeFrame(*pipeline, made.scene.cameras.front(), setting.width, setting.height,
+    Drawn& drawn = drawn_[{setting.opaque, setting.translucent, setting.drawsTranslucent}];
+    if (drawn.made.scene.cameras.empty()) drawn.made = sceneOf(setting);
+    auto& pipeline = drawn.pipelines[setting.pipeline];
+    if (!pipeline)
+      pipeline = pipelines::makePipeline(setting.pipeline, device_, drawn.made.scene, drawn.made.media);
+    return timeFrame(*pipeline, drawn.made.scene.cameras.front(), setting.width, setting.height,
                      qualityOf(device_, setting));
   }
 
  private:
+  struct Drawn {
+    scene::GeneratedScene made;
+    std::map<std::string, std::unique_ptr<pipelines::Pipeline>> pipelines;
+  };
   gl::Device& device_;
-  std::map<bool, scene::GeneratedScene> scenes_;
-  std::map<std::pair<bool, std::string>, std::unique_ptr<pipelines::Pipeline>> pipelines_;
+  std::map<std::tuple<size_t, size_t, bool>, Drawn> drawn_;
 };
 
-// The settings of a scene take turns, so that what else the machine does meets all of them alike. The first
+// The settings of a group take turns, so that what else the machine does meets all of them alike. The first
 // turn compiles what is needed.
 void measure(gl::Device& device, const PapersOptions& options, PaperResult& result) {
-  const auto scenes = settingsOf(result.tables);
-  base::Progress progress("bench", static_cast<long>(scenes.size()) * (options.repeat + 1));
-  for (const auto& [key, settings] : scenes) {
-    DrawnScene drawn(device);
+  const auto groups = settingsOf(result.tables);
+  base::Progress progress("bench", static_cast<long>(groups.size()) * (options.repeat + 1));
+  for (const auto& [key, settings] : groups) {
+    DrawnScenes drawn(device);
     for (int turn = 0; turn <= options.repeat; ++turn) {
       for (const PaperSetting& setting : settings) {
         TimedFrame timed = drawn.draw(setting);
