@@ -129,14 +129,14 @@ void draw(gl::Device& device, const BenchOptions& options, const Shot& shot, Var
   device.profiler().enable(false);
 }
 
-// What a pipeline cannot do within its memory is a result here.
+// What a pipeline cannot do, within its memory or at all, is a result here.
 VariantRun runOf(gl::Device& device, const BenchOptions& options, const Shot& shot, const Exact& exact,
                  const Variant& variant) {
   VariantRun run{.variant = variant};
   try {
     draw(device, options, shot, run);
   } catch (const base::Error& error) {
-    if (error.exitCode != ExitCode::Memory) throw;
+    if (error.exitCode != ExitCode::Memory && error.exitCode != ExitCode::Usage) throw;
     return {.variant = variant, .refused = error.what()};
   }
   run.difference = image::compare(run.radiance, exact.radiance);

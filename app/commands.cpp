@@ -7,10 +7,12 @@
 
 #include "app/validators.h"
 #include "base/version.h"
+#include "image/tone_map.h"
 #include "lists/strategy.h"
 #include "lists/stress/load.h"
 #include "pipelines/aovs.h"
 #include "pipelines/pipeline_names.h"
+#include "pipelines/post.h"
 #include "pipelines/quality.h"
 
 namespace sfumato::app {
@@ -266,6 +268,31 @@ void addReference(CLI::App& command, RenderOptions& options) {
       ->group("Quality");
 }
 
+void addAmbient(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--ambient", [&options](const std::string& text) { options.ambient = parseColour(text); },
+          "Light surfaces from all around: 0 to 1e6 each, else as the scene says")
+      ->type_name("R,G,B")
+      ->check(colour())
+      ->group("Quality");
+  CLI::Option* occlusion =
+      command
+          .add_option("--ssao", options.ambientOcclusion,
+                      "Let surfaces shadow that light: off, full, half, quarter; else off")
+          ->type_name("SIZE")
+          ->check(oneOf(pipelines::occlusionSizeNames()))
+          ->excludes("--reference")
+          ->group("Quality");
+  command
+      .add_option("--ssao-radius", options.ambientOcclusionRadius,
+                  "Within this distance: 1e-6 to 1e6, else what suits the scene")
+      ->type_name("METRES")
+      ->check(between(1e-6, 1e6))
+      ->needs(occlusion)
+      ->group("Quality");
+}
+
 void addOutput(CLI::App& command, RenderOptions& options) {
   const auto add = [&](const char* name, auto& value, const std::string& help) {
     return command.add_option(name, value, help)->group("Output");
@@ -275,9 +302,6 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE")
       ->check(fileName())
       ->allow_extra_args(false);
-  add("--exposure", options.exposureStops, "Brighten the .png: -30 to 30, else 0")
-      ->type_name("STOPS")
-      ->check(between(-30.0, 30.0));
   add("--aov", options.aovs,
       fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
                   fmt::join(pipelines::aovNames(), ", ")))
@@ -302,6 +326,30 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   command
       .add_flag("-n,--dry-run", options.dryRun, "Read all files, print the plan, write nothing; needs no GL")
       ->group("Output");
+}
+
+void addDisplay(CLI::App& command, DisplayOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Pictures (.png; an .exr keeps linear radiance)");
+  };
+  add("--exposure", options.exposureStops, "Brighten them: -30 to 30, else 0")
+      ->type_name("STOPS")
+      ->check(between(-30.0, 30.0));
+  add("--tonemap", options.toneCurve, "neutral (Khronos), reinhard (by log-average luminance); else neutral")
+      ->type_name("NAME")
+      ->check(oneOf(image::toneCurveNames()));
+  add("--white", options.white, "What reinhard shows white: 1e-6 to 1e9, else the brightest there")
+      ->type_name("LUMINANCE")
+      ->check(between(1e-6, 1e9));
+  add("--bloom", options.bloom, "Let bright parts glow: separable, mipmap or off; else off")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::bloomNames()));
+  add("--bloom-strength", options.bloomStrength, "Part of their light that glows: 0 to 10, else 0.2")
+      ->type_name("PART")
+      ->check(between(0.0, 10.0));
+  add("--aa", options.antiAliasing, "edges: blur across the edges of opaque surfaces; else off")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::antiAliasingNames()));
 }
 
 void addTolerance(CLI::App& command, const std::string& what, Tolerance& tolerance) {
@@ -517,7 +565,9 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addDeferred(command, options);
   addLists(command, options);
   addReference(command, options);
+  addAmbient(command, options);
   addOutput(command, options);
+  addDisplay(command, options.display);
   addDevice(command, options.device);
   addFlags(command, verbosity);
   return command;

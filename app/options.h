@@ -17,6 +17,16 @@ struct DeviceChoice {
   std::string shaderDir;
 };
 
+// What shapes pictures for a screen (.png), and leaves an .exr as it is.
+struct DisplayOptions {
+  double exposureStops = 0;
+  std::string toneCurve = "neutral";
+  std::optional<double> white;  // luminance, of Reinhard's curve; none: the largest of the picture
+  std::string bloom = "off";
+  std::optional<double> bloomStrength;
+  std::string antiAliasing = "off";
+};
+
 struct RenderOptions {
   DeviceChoice device;
   std::string commandLine;           // as typed, for the metadata
@@ -58,9 +68,12 @@ struct RenderOptions {
   std::string lists;          // a strategy; empty: the device's
   std::string listMemory;     // empty: what the device allows
   std::string onOverflow = "window";
-  bool reference = false;  // drawn by the CPU reference
-  int samples = 1;         // a side of the pixel, of the reference
-  double exposureStops = 0;
+  std::optional<glm::dvec3> ambient;
+  std::string ambientOcclusion = "off";
+  std::optional<double> ambientOcclusionRadius;  // m
+  bool reference = false;                        // drawn by the CPU reference
+  int samples = 1;                               // a side of the pixel, of the reference
+  DisplayOptions display;
   std::vector<std::string> aovs;                                 // see pipelines/aovs.h
   std::string deep;                                              // .exr, empty: none
   std::vector<std::pair<std::string, std::string>> deepShadows;  // a light's name or number, and an .exr

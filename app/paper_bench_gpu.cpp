@@ -38,7 +38,13 @@ std::map<GroupKey, std::set<PaperSetting>> settingsOf(const std::vector<PaperTab
   return settings;
 }
 
-pipelines::Quality qualityOf(gl::Device& device, const PaperSetting& setting) {
+// Ferko 2012, section 7: the size of the occlusion, and the samples of the A-buffer, which a device may not
+// have.
+constexpr pipelines::OcclusionSize occlusionSizes[] = {
+    pipelines::OcclusionSize::Quarter, pipelines::OcclusionSize::Half, pipelines::OcclusionSize::Full};
+constexpr int bufferSamples[] = {4, 8, 8};
+
+pipelines::Quality qualityOf(gl::Device& device, const PaperSetting& setting, const scene::Scene& scene) {
   pipelines::Quality quality = pipelines::qualityNamed("medium");
   quality.samples = 1;
   quality.lists.strategy = lists::chooseStrategy(device);
@@ -48,6 +54,9 @@ pipelines::Quality qualityOf(gl::Device& device, const PaperSetting& setting) {
   quality.deferred.shadows = setting.shadows;
   quality.deferred.layers = setting.layers;
   quality.deferred.refraction = setting.refraction ? refraction : 0;
+  quality.deferred.samples = bufferSamples[setting.preset];
+  if (setting.ambientOcclusion)
+    quality.ambientOcclusion = {occlusionSizes[setting.preset], pipelines::usualOcclusionRadius(scene)};
   return quality;
 }
 
@@ -63,7 +72,7 @@ class DrawnScenes {
     if (!pipeline)
       pipeline = pipelines::makePipeline(setting.pipeline, device_, drawn.made.scene, drawn.made.media);
     return timeFrame(*pipeline, drawn.made.scene.cameras.front(), setting.width, setting.height,
-                     qualityOf(device_, setting));
+                     qualityOf(device_, setting, drawn.made.scene));
   }
 
  private:

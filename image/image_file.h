@@ -11,6 +11,7 @@
 
 #include "image/deep_image.h"
 #include "image/image.h"
+#include "image/tone_map.h"
 
 namespace sfumato::image {
 
@@ -28,7 +29,7 @@ Image readImage(const std::filesystem::path& path);
 // the same image makes the same bytes. Beside, then renamed: a failure (Input) leaves no file. Other endings
 // are a Usage error.
 void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
-                bool fullFloat = false);
+                bool fullFloat = false, const ToneMapping& toneMapping = {});
 
 // Writes an `.exr` as writeImage() does, with layers beside the image: channels named "layer.channel", as
 // floats.

@@ -29,6 +29,8 @@ struct DeferredOptions {
   Interlace interlace = Interlace::Lines;
   Storage storage = Storage::Exact;
   Passes passes = Passes::PerObject;
+  int samples =
+      0;  // of a pixel that hold fragments in one pass of the stencil-routed pipeline; 0: all there are
   int layers = 0;  // translucent ones that are peeled at most; 0: until nothing is left
   double refraction =
       0;  // how far a normal shifts what is seen through a surface, part of the image's height

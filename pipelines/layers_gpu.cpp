@@ -156,15 +156,16 @@ void LayeredFrame::bind(const shared::ResolveParams& params) {
   scene_.volumes().bind();
 }
 
+std::array<gl::Format, 3> LayeredFrame::surfaceFormats() const {
+  if (options().storage == Storage::Table) return {gl::Format::RGBA8, gl::Format::RGB10A2, gl::Format::RGBA8};
+  return {gl::Format::RGBA32UI, gl::Format::RGBA32UI, gl::Format::RG32UI};
+}
+
 SurfaceLayer LayeredFrame::layer(const std::string& label, bool numbered) const {
   const glm::ivec3 size(view_.width, view_.height, 1);
-  const bool table = options().storage == Storage::Table;
-  const gl::Format formats[] = {table ? gl::Format::RGBA8 : gl::Format::RGBA32UI,
-                                table ? gl::Format::RGB10A2 : gl::Format::RGBA32UI,
-                                table ? gl::Format::RGBA8 : gl::Format::RG32UI};
   SurfaceLayer result;
-  for (size_t i = 0; i < std::size(formats); ++i)
-    result.surface[i] = gl::Texture(device(), label, {.format = formats[i], .size = size});
+  for (size_t i = 0; i < std::size(result.surface); ++i)
+    result.surface[i] = gl::Texture(device(), label, {.format = surfaceFormats()[i], .size = size});
   result.depth = gl::Texture(device(), label + " depth", {.format = gl::Format::R32F, .size = size});
   result.depthTest =
       gl::Texture(device(), label + " depth test", {.format = gl::Format::Depth32FStencil8, .size = size});
@@ -260,13 +261,20 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
 Walk LayeredFrame::startWalk() const {
   std::vector<shared::RayState> states(
       pixels(), {.depth = view_.params.depthRange.x, .throughputR = 1, .throughputG = 1, .throughputB = 1});
-  return {gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0};
+  Walk walk{gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0, {}};
+  if (options().refraction > 0) {
+    walk.bends = gl::Buffer(device(), "bends", pixels() * sizeof(glm::uvec2));
+    walk.bends.clear();
+  }
+  return walk;
 }
 
 size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk) {
   const Profiler::Scope time(device().profiler(), "walk");
   gl::ShaderDefines defines = lightingDefines();
   if (last) defines.emplace_back("LAST", "1");
+  const bool bent = options().refraction > 0;
+  if (bent) defines.emplace_back("BENT", "1");
   shared::ResolveParams params = this->params();
   params.options.x = ++walk.layers;
   return dispatchWalk(
@@ -274,6 +282,7 @@ size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light,
       [&] {
         layer.bind();
         light.bind(TEXTURE_LAYER_LIGHT);
+        if (bent) walk.bends.bindStorage(STORAGE_BENDS);
       },
       walk);
 }

@@ -3,6 +3,7 @@
 // together from. One sample a pixel, at its centre; the whole image at once.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -47,8 +48,9 @@ struct LayerDraw {
 
 // Rays, one a pixel, that are taken from layer to layer and gather what is seen.
 struct Walk {
-  gl::Buffer rays;  // shared::RayState
-  int layers = 0;   // that they were taken to
+  gl::Buffer rays;   // shared::RayState
+  int layers = 0;    // that they were taken to
+  gl::Buffer bends;  // of what is seen through the first surface, where there is refraction
 };
 
 // Which shadows a pipeline has by itself. Where it adds up each light once, interlaced maps need room for
@@ -94,6 +96,7 @@ class LayeredFrame {
   size_t pixels() const;
   gl::ShaderDefines storageDefines() const;
   gl::ShaderDefines interlaceDefines() const;
+  std::array<gl::Format, 3> surfaceFormats() const;
   // Of programs that march or light surfaces.
   gl::ShaderDefines lightingDefines() const;
   // Lights in the order of the light lists.

@@ -5,6 +5,7 @@
 #include "pipelines/linked_lists_gpu.h"
 #include "pipelines/peeling_gpu.h"
 #include "pipelines/pipeline_names.h"
+#include "pipelines/stencil_routed_gpu.h"
 
 namespace sfumato::pipelines {
 
@@ -20,6 +21,8 @@ std::unique_ptr<Pipeline> makePipeline(const std::string& name, gl::Device& devi
     return std::make_unique<ForwardPipeline>(ForwardPipeline::Refraction::ByMask, device, scene, media,
                                              gridOptions);
   if (name == "peeling") return std::make_unique<PeelingPipeline>(device, scene, media, gridOptions);
+  if (name == "stencil-routed")
+    return std::make_unique<StencilRoutedPipeline>(device, scene, media, gridOptions);
   return std::make_unique<LinkedListsPipeline>(device, scene, media, gridOptions);
 }
 

@@ -53,6 +53,7 @@ SceneGpu::SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<cons
 gl::ShaderDefines SceneGpu::lightingDefines(int scatteringOctaves) const {
   gl::ShaderDefines defines;
   if (geometry_.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
+  if (scene_.ambient != glm::dvec3(0)) defines.emplace_back("AMBIENT", "1");
   if (volumes_.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
   if (volumes_.burning()) defines.emplace_back("FIRE", "1");

@@ -28,7 +28,8 @@ void main() {
   vec3 colour = params.lightColour.rgb;
   letThrough = vec4(min(colour, base.rgb) / max(colour, 1e-20), base.a * (1.0 - tau));
 #else
-  letThrough = vec4(pow(pass, vec3(wayThrough())), 0.0);
+  float way = wayThrough();
+  letThrough = vec4(way == 1.0 ? pass : pow(pass, vec3(way)), 0.0);  // some drivers' pow(x, 1) is not x
 #endif
 #endif
 }

@@ -87,20 +87,23 @@ struct Receiver {
   float rounding;
 };
 
-// As opaqueDepthFrom() in lookup.glsl; a line that shows something translucent there is passed over.
+// As opaqueDepthFrom() in lookup.glsl. Where a texel beside it shows something translucent, the line below tells how the
+// depth changes along the lines, and the one after the next how it does across them.
 float opaqueDepthFrom(ShadowFace face, ivec2 texel, float depth, vec2 offset) {
   ivec2 outwards = ivec2(sign(offset));
-  float besideX = depthOf(face, texel + ivec2(outwards.x, 0));
-  float besideY = depthOf(face, texel + ivec2(0, outwards.y));
-  if (besideX < 0.0) besideX = NOTHING_OPAQUE;
+  vec2 own = vec2(depth);
+  vec2 beside = vec2(depthOf(face, texel + ivec2(outwards.x, 0)), depthOf(face, texel + ivec2(0, outwards.y)));
   vec2 per = abs(offset);
-  if (besideY < 0.0) {
-    besideY = depthOf(face, texel + ivec2(0, 2 * outwards.y));
+  if (beside.x < 0.0) {
+    own.x = depthOf(face, texel - ivec2(0, 1));
+    beside.x = depthOf(face, texel + ivec2(outwards.x, -1));
+  }
+  if (beside.y < 0.0) {
+    beside.y = depthOf(face, texel + ivec2(0, 2 * outwards.y));
     per.y *= 0.5;
   }
-  vec2 beside = vec2(besideX, besideY);
-  if (face.texels.z == 0) return depth + dot(per, depth - beside);
-  float inverse = 1.0 / depth + dot(per, 1.0 / depth - 1.0 / beside);
+  if (face.texels.z == 0) return depth + dot(per, own - beside);
+  float inverse = 1.0 / depth + dot(per, 1.0 / own - 1.0 / beside);
   return inverse > 0.0 ? 1.0 / inverse : NOTHING_OPAQUE;
 }
 

@@ -1,7 +1,8 @@
 // The nearest surfaces into a layer (pipelines/layers_gpu.h). TRANSLUCENT is defined for those that let light pass,
 // INTERLACE where they take some pixels only, IN_FRONT where what is behind the opaque surfaces is left out, NUMBERED where
 // the number of the fragment is kept, PEELED where what is not behind such a layer is left out, TABLE_STORAGE for targets
-// of 8 and 10 bits.
+// of 8 and 10 bits. ROUTED where all fragments are kept, with what orders them, in the samples of a part of the image, and
+// PAGED where those of earlier pages are left out (pipelines/stencil_routed_gpu.h).
 #include "shaders/scene/surface.glsl"
 #include "shaders/shared/layers.h"
 #ifdef INTERLACE
@@ -25,7 +26,14 @@ layout(location = 0) out uvec4 surface0;
 layout(location = 1) out uvec4 surface1;
 layout(location = 2) out uvec2 surface2;
 #endif
+#ifdef ROUTED
+layout(location = 3) out uvec2 key;
+#else
 layout(location = 3) out float depth;
+#endif
+#ifdef PAGED
+layout(binding = TEXTURE_ROUTED_PAGE) uniform usampler2D pageEnd;  // numbers of the last fragments that are kept
+#endif
 #ifdef NUMBERED
 layout(location = 4) out uint id;
 #endif
@@ -37,6 +45,9 @@ bool isWanted(ivec2 pixel, float at) {
 #ifdef IN_FRONT
   if (at >= texelFetch(opaqueDepth, pixel, 0).r) return false;
 #endif
+#ifdef PAGED
+  if (fragmentId() <= texelFetch(pageEnd, pixel - view.tile.xy, 0).r) return false;
+#endif
 #ifdef PEELED
   float peeled = texelFetch(peeledDepth, pixel, 0).r;
   if (at < peeled || (at == peeled && fragmentId() <= texelFetch(peeledId, pixel, 0).r)) return false;
@@ -47,7 +58,7 @@ bool isWanted(ivec2 pixel, float at) {
 void main() {
   float at = fragmentDepth();
   SurfacePoint point = surfacePoint(baseColour());  // derivatives are taken before the flow diverges
-  if (point.base.a == 0.0 || !isWanted(ivec2(gl_FragCoord.xy), at)) discard;
+  if (point.base.a == 0.0 || !isWanted(ivec2(gl_FragCoord.xy) + view.tile.xy, at)) discard;
 #ifdef TRANSLUCENT
   bool translucent = true;
 #else
@@ -64,7 +75,11 @@ void main() {
   surface1 = uvec4(s.f0Rg, s.f0BF90, s.emissiveRg, s.emissiveBPassR);
   surface2 = uvec2(s.passGb, s.coverageObject);
 #endif
+#ifdef ROUTED
+  key = uvec2(floatBitsToUint(at), fragmentId());
+#else
   depth = at;
+#endif
 #ifdef NUMBERED
   id = fragmentId();
   // So that the depth test orders fragments as lists do: by what is told of their depth, then as they are drawn.

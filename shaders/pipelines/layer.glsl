@@ -1,31 +1,46 @@
 // A layer of surfaces for readers (pipelines/layers_gpu.h): what is seen at a pixel, how deep, and the light on it.
-// TABLE_STORAGE is defined where it is kept in 8 and 10 bits; then no surface emits.
+// TABLE_STORAGE is defined where it is kept in 8 and 10 bits; then no surface emits. ROUTED is defined where all fragments of
+// a pixel are kept in samples, without light (pipelines/stencil_routed_gpu.h).
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/scene/surface_point.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/layers.h"
 
-layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D layerDepths;  // NOTHING_SEEN: no surface
-#ifdef TABLE_STORAGE
-layout(binding = TEXTURE_SURFACE_0) uniform sampler2D layerColour;
-layout(binding = TEXTURE_SURFACE_1) uniform sampler2D layerNormal;
-layout(binding = TEXTURE_SURFACE_2) uniform sampler2D layerMaterial;
+#ifdef ROUTED
+#define LayerPlace ivec4  // x, y, layer, sample
+#define layerSampler sampler2DMSArray
+#define layerUsampler usampler2DMSArray
+#define layerTexel(image, place) texelFetch(image, place.xyz, place.w)
 #else
-layout(binding = TEXTURE_SURFACE_0) uniform usampler2D layerSurface0;
-layout(binding = TEXTURE_SURFACE_1) uniform usampler2D layerSurface1;
-layout(binding = TEXTURE_SURFACE_2) uniform usampler2D layerSurface2;
+#define LayerPlace ivec2
+#define layerSampler sampler2D
+#define layerUsampler usampler2D
+#define layerTexel(image, place) texelFetch(image, place, 0)
 #endif
-layout(binding = TEXTURE_LAYER_LIGHT) uniform sampler2D layerLight;  // see layerRadiance
+
+#ifdef TABLE_STORAGE
+layout(binding = TEXTURE_SURFACE_0) uniform layerSampler layerColour;
+layout(binding = TEXTURE_SURFACE_1) uniform layerSampler layerNormal;
+layout(binding = TEXTURE_SURFACE_2) uniform layerSampler layerMaterial;
+#else
+layout(binding = TEXTURE_SURFACE_0) uniform layerUsampler layerSurface0;
+layout(binding = TEXTURE_SURFACE_1) uniform layerUsampler layerSurface1;
+layout(binding = TEXTURE_SURFACE_2) uniform layerUsampler layerSurface2;
+#endif
+#ifndef ROUTED
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D layerDepths;  // NOTHING_SEEN: no surface
+layout(binding = TEXTURE_LAYER_LIGHT) uniform sampler2D layerLight;    // see layerRadiance
 
 float layerDepth(ivec2 pixel) {
   return texelFetch(layerDepths, pixel, 0).r;
 }
+#endif
 
 #ifdef TABLE_STORAGE
-SurfacePoint layerPoint(ivec2 pixel) {
-  vec4 colour = texelFetch(layerColour, pixel, 0);
-  vec4 normal = texelFetch(layerNormal, pixel, 0);
-  vec4 material = texelFetch(layerMaterial, pixel, 0);
+SurfacePoint layerPoint(LayerPlace place) {
+  vec4 colour = layerTexel(layerColour, place);
+  vec4 normal = layerTexel(layerNormal, place);
+  vec4 material = layerTexel(layerMaterial, place);
   SurfacePoint point;
   point.base = vec4(colour.rgb * colour.rgb, colour.a);
   point.normal = point.geometricNormal = normalize(normal.xyz * 2.0 - 1.0);
@@ -40,10 +55,11 @@ SurfacePoint layerPoint(ivec2 pixel) {
   return point;
 }
 
-PackedSurface layerSurface(ivec2 pixel) {
-  return packedSurface(layerPoint(pixel));
+PackedSurface layerSurface(LayerPlace place) {
+  return packedSurface(layerPoint(place));
 }
 
+#ifndef ROUTED
 // Light is kept apart from the colours that it meets: irradiance over pi, and what is reflected like in a mirror, white
 // (Aladagli 2015, table 3.2).
 vec3 layerRadiance(ivec2 pixel) {
@@ -52,17 +68,20 @@ vec3 layerRadiance(ivec2 pixel) {
   vec3 diffuse = point.base.rgb * ((1.0 - point.metallic) * point.base.a * (1.0 - point.tau));
   return diffuse * light.rgb + light.a;
 }
+#endif
 #else
-PackedSurface layerSurface(ivec2 pixel) {
-  uvec4 a = texelFetch(layerSurface0, pixel, 0);
-  uvec4 b = texelFetch(layerSurface1, pixel, 0);
-  uvec2 c = texelFetch(layerSurface2, pixel, 0).xy;
+PackedSurface layerSurface(LayerPlace place) {
+  uvec4 a = layerTexel(layerSurface0, place);
+  uvec4 b = layerTexel(layerSurface1, place);
+  uvec2 c = layerTexel(layerSurface2, place).xy;
   return PackedSurface(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y);
 }
 
+#ifndef ROUTED
 vec3 layerRadiance(ivec2 pixel) {
   return texelFetch(layerLight, pixel, 0).rgb;
 }
+#endif
 #endif
 
 bool isTranslucent(PackedSurface surface) {

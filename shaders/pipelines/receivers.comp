@@ -7,9 +7,9 @@
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve.h"
+#include "shaders/shared/view_block.glsl"
 #ifdef SMOKE
 #include "shaders/volumes/grid.glsl"
-#include "shaders/shared/view_block.glsl"
 #endif
 
 layout(std140, binding = UNIFORM_PASS) uniform Pass {

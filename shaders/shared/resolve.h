@@ -26,6 +26,7 @@ struct ResolveParams {
                    // surfaces, and 8 times those of smoke; z: directional lights; w: rays
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
   vec4 samples23;
+  vec4 ambient;    // rgb: radiance from all around; w: radius of ambient occlusion, m
 };
 
 struct ResolveCounters {

@@ -32,6 +32,10 @@ TEST(CommandLine, NamesTheArgumentThatIsWrong) {
           {{"render", "a.gltf", "--res", "8x8", "--res", "9x9"}, 2, "--res: takes WxH, once"},
           {{"render", "a.gltf", "--look-at", "1", "2"}, 2, "--look-at: takes X Y Z"},
           {{"render", "a.gltf", "--quality", "foo"}, 2, "--quality: \"foo\" is none of draft, "},
+          {{"render", "a.gltf", "--tonemap", "foo"}, 2, "--tonemap: \"foo\" is none of neutral, "},
+          {{"render", "a.gltf", "--bloom", "on"}, 2, "--bloom: \"on\" is none of off, separable, "},
+          {{"render", "a.gltf", "--aa", "4"}, 2, "--aa: \"4\" is none of off, edges"},
+          {{"render", "a.gltf", "--aa"}, 2, "--aa: takes NAME"},
           {{"bench"}, 2, "name pipelines or papers: see `sfumato bench --help`"},
           {{"bench", "--frob"}, 2, "--frob: no such option: see `sfumato bench --help`"},
           {{"bench", "shapes"}, 2, "shapes: is one argument too many"},
@@ -64,6 +68,8 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--step", 1, {"0", "100.1", "nan", "-nan", "inf", "", "foo", "1 2", "1,5", "++1", "5e"}},
            {"--fov", 1, {"-45", "180", "nan"}},
            {"--exposure", 1, {"31", "nan"}},
+           {"--white", 1, {"0", "-1", "1e10", "nan"}},
+           {"--bloom-strength", 1, {"-0.1", "10.1", "nan"}},
            {"--volume-scale", 1, {"-1", "nan"}},
            {"--volume-g", 1, {"1", "nan"}},
            {"--volume-extinction", 3, {"-1", "1e7", "nan"}},
@@ -76,6 +82,7 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--shadow-res", 1, {"31", "64.5", "1e3", "nan"}},
            {"--shadow-error", 1, {"-0.1", "0.51", "nan", "foo"}},
            {"--repeat", 1, {"0", "1001"}},
+           {"--ssao-radius", 1, {"0", "nan", "-1", "1e7"}},
            {"--samples", 1, {"0", "65", "1.5", "nan"}},
        }) {
     for (const std::string& text : row.wrong) {
@@ -85,6 +92,19 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
       expectError(runProgram(folder().path(), arguments), 2, row.option + ": \"" + text + "\" is not a ");
     }
   }
+}
+
+TEST(CommandLine, TakesOnlyAmbientLightThatCanBe) {
+  for (const char* text :
+       {"", "-1", "1,2", "1,2,3,4", "1,2,", ",,", "1 2 3", "nan", "0,0,-0.1", "1e7", "red"})
+    expectError(runProgram(folder().path(), {"render", "a.gltf", "--ambient", text}), 2,
+                "--ambient: \"" + std::string(text) + "\" is not a colour");
+  expectErrors(folder().path(),
+               {
+                   {{"render", "a.gltf", "--ssao", "tiny"}, 2, "--ssao: \"tiny\" is none of off, full, "},
+                   {{"render", "a.gltf", "--ssao", "half", "--reference"}, 2, "--reference excludes --ssao"},
+                   {{"render", "a.gltf", "--ssao-radius", "1"}, 2, "--ssao-radius requires --ssao"},
+               });
 }
 
 TEST(CommandLine, ShowsHelpAndVersion) {

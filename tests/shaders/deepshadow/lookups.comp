@@ -4,7 +4,7 @@
 
 struct Probe {
   vec4 point;   // xyz, world; w: texels across that a lookup asks
-  vec4 normal;  // xyz, of the surface it lies on; 0: a point in smoke
+  vec4 normal;  // xyz, of the surface it lies on; 0: a point in smoke; w: the light's first face
   vec4 light;   // xyz: the light's position; w: its faces
 };
 
@@ -20,13 +20,14 @@ void main() {
   Probe probe = probes[linearId()];
   vec3 point = probe.point.xyz;
   int side = int(probe.point.w);
+  int firstFace = int(probe.normal.w);
   int faces = int(probe.light.w);
   vec3 passing;
   if (probe.normal.xyz == vec3(0.0)) {
-    ShadowFace face = shadowFaces[faceTowards(faces, point - probe.light.xyz)];
+    ShadowFace face = shadowFaces[firstFace + faceTowards(faces, point - probe.light.xyz)];
     passing = shadowInSmoke(face, (face.faceFromWorld * vec4(point, 1.0)).xyz, side);
   } else {
-    passing = shadowOnSurface(0, faces, probe.light.xyz, point, probe.normal.xyz, 0u, side);
+    passing = shadowOnSurface(firstFace, faces, probe.light.xyz, point, probe.normal.xyz, 0u, side);
   }
   answers[linearId()] = vec4(passing, 1.0);
 }
