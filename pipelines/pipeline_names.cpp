@@ -9,7 +9,7 @@
 namespace sfumato::pipelines {
 
 const std::vector<std::string>& pipelineNames() {
-  static const std::vector<std::string> names = {"lund", "peeling", "stencil-routed"};
+  static const std::vector<std::string> names = {"lund", "peeling", "reentrant", "stencil-routed"};
   return names;
 }
 
