@@ -223,6 +223,10 @@ void addDeferred(CLI::App& command, RenderOptions& options) {
          options.storage);
   choose("--passes", options.passes, "Of reentrant: for all translucent surfaces, or an object",
          pipelines::passesNames().names, options.passes);
+  command
+      .add_flag("--depth-prepass", options.depthsFirst,
+                "Draw the depths of opaque surfaces first, so that none is shaded that is hidden")
+      ->group("Pipeline");
   add("--layers", options.layers, "Layers that are peeled at most: 1 to 10000, else all")
       ->type_name("N")
       ->check(wholeBetween(1, 10000));
