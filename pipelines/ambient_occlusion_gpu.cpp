@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "gl/commands.h"
-#include "pipelines/gbuffer_gpu.h"
 #include "shaders/shared/ambient_occlusion.h"
 #include "shaders/shared/bindings.h"
 
@@ -89,24 +88,6 @@ AmbientOcclusion drawAmbientOcclusion(gl::Device& device, const AmbientOcclusion
     std::swap(results, blurred);
   }
   return {std::move(results), inputs.options.size};
-}
-
-std::optional<AmbientOcclusion> occlusionOf(const SceneGpu& scene, const FrameView& view,
-                                            const AmbientOcclusionOptions& options) {
-  if (options.size == OcclusionSize::Off || scene.scene().ambient == glm::dvec3(0)) return std::nullopt;
-  gl::Device& device = scene.device();
-  gl::Buffer viewBlock(device, "camera view", sizeof(shared::ViewParams));
-  shared::ViewParams params = view.params;
-  params.tile = params.window = {0, 0, view.width, view.height};
-  viewBlock.writeValue(params);
-  const GBuffer gbuffer = [&] {
-    const Profiler::Scope time(device.profiler(), "occlusion G-buffer");
-    return drawGBuffer(
-        device,
-        {.geometry = scene.geometry(), .view = viewBlock, .width = view.width, .height = view.height});
-  }();
-  return drawAmbientOcclusion(device,
-                              {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height, options});
 }
 
 }  // namespace sfumato::pipelines

@@ -2,14 +2,11 @@
 // "Real-time Lighting Effects using Deferred Shading", CESCG 2012, section 5; after Mittring 2007).
 #pragma once
 
-#include <optional>
-
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "pipelines/ambient_occlusion.h"
-#include "pipelines/scene_gpu.h"
 
 namespace sfumato::pipelines {
 
@@ -41,11 +38,5 @@ struct AmbientOcclusion {
 // Without random input: the same picture gives the same bits. Costs 16 bytes a result, 16 more while it
 // works.
 AmbientOcclusion drawAmbientOcclusion(gl::Device& device, const AmbientOcclusionInputs& inputs);
-
-// The same for what a camera sees of a scene, from a G-buffer of its own: of the whole image, as a tile's
-// surfaces are occluded by those of others, and with one sample a pixel; 40 bytes a pixel while it works.
-// Nothing where it is off, or there is no ambient light.
-std::optional<AmbientOcclusion> occlusionOf(const SceneGpu& scene, const FrameView& view,
-                                            const AmbientOcclusionOptions& options);
 
 }  // namespace sfumato::pipelines

@@ -64,7 +64,7 @@ void drawAmbient(LayeredFrame& frame, const ForwardImage& image) {
   drawSurfaces(
       frame,
       {.target = &target, .viewport = {0, 0, frame.view().width, frame.view().height}, .depthTest = true},
-      frame.lightingDefines());
+      {});
 }
 
 void addLight(LayeredFrame& frame, size_t number, const ForwardImage& image) {

@@ -73,7 +73,6 @@ LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, i
   view_.params.depthRange.z = depthScale(view_.seen, camera);
   viewBlock_.writeValue(view_.params);
   const auto faces = buildShadows(usual.lightsOnce);
-  occlusion_ = occlusionOf(scene, view_, quality.ambientOcclusion);
   const Profiler::Scope time(device().profiler(), "light lists");
   lightLists_.emplace(device(), lights::LightListInputs{scene.lights(), faces, viewBlock_, width, height,
                                                         std::nullopt, nullptr, quality.lists});
@@ -124,12 +123,11 @@ gl::ShaderDefines LayeredFrame::storageDefines() const {
 }
 
 gl::ShaderDefines LayeredFrame::lightingDefines() const {
-  gl::ShaderDefines defines =
-      gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines());
-  if (interlaced_)
-    defines = gl::joined(defines, deepshadow::lookupDefines(interlacedKind(shadowKind_, options().storage)));
-  if (occlusion_) defines = gl::joined(defines, occlusion_->defines());
-  return defines;
+  const gl::ShaderDefines shadows =
+      interlaced_ ? deepshadow::lookupDefines(interlacedKind(shadowKind_, options().storage))
+                  : gl::ShaderDefines{};
+  return gl::joined(gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines()),
+                    shadows);
 }
 
 gl::ShaderDefines LayeredFrame::interlaceDefines() const {
@@ -146,7 +144,6 @@ shared::ResolveParams LayeredFrame::params() const {
   params.march = {quality_.stepVoxels, quality_.throughputCutoff, options().refraction * view_.height, 0};
   params.options = {0, tapsOf(quality_.surfaceShadows) + 8 * tapsOf(quality_.smokeShadows),
                     lightLists_->directionalLights(), 0};
-  params.ambient = glm::vec4(scene_.scene().ambient, quality_.ambientOcclusion.radius);
   return params;
 }
 
@@ -157,7 +154,6 @@ void LayeredFrame::bind(const shared::ResolveParams& params) {
   lightLists_->bind();
   if (shadows_) shadows_->bind();
   if (interlaced_) interlaced_->bind();
-  if (occlusion_) occlusion_->bind();
   scene_.volumes().bind();
 }
 
@@ -249,10 +245,9 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
       {.format = table ? gl::Format::RGBA8 : gl::Format::RGBA32F, .size = {view_.width, view_.height, 1}});
   const gl::Framebuffer target(std::vector<const gl::Texture*>{&result}, nullptr);
   gl::DrawState state{.program = &device().program(
-                          {"pipelines/whole_image.vert", "pipelines/layer_glow.frag"}, lightingDefines()),
+                          {"pipelines/whole_image.vert", "pipelines/layer_glow.frag"}, storageDefines()),
                       .target = &target,
                       .viewport = {0, 0, view_.width, view_.height}};
-  bind(params());
   layer.bind();
   gl::setDrawState(state);
   gl::drawGenerated(device(), 3, 1);

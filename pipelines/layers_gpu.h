@@ -16,7 +16,6 @@
 #include "gl/texture.h"
 #include "image/image.h"
 #include "lights/light_lists_gpu.h"
-#include "pipelines/ambient_occlusion_gpu.h"
 #include "pipelines/frame_gpu.h"
 #include "pipelines/quality.h"
 #include "pipelines/scene_gpu.h"
@@ -133,7 +132,6 @@ class LayeredFrame {
   std::optional<deepshadow::InterlacedMaps> interlaced_;
   std::optional<ShadowInputs> turns_;  // where a map is built for each light in its turn
   std::optional<lights::LightLists> lightLists_;
-  std::optional<AmbientOcclusion> occlusion_;
 };
 
 // An image of a texture of 32-bit floats; the rows of images count from the top.

@@ -1,10 +1,8 @@
-// A surface as a forward renderer lights it (Aladagli 2015, section 4.1.3): first what it gives before any light, with depth, normal
+// A surface as a forward renderer lights it (Aladagli 2015, section 4.1.3): first what it gives by itself, with depth, normal
 // and what it lets through; then, with LIGHT defined, what one light adds. TRANSLUCENT, INTERLACE: see layer.frag.
 #define SAMPLES 1
-#include "shaders/pipelines/accessibility.glsl"
-#include "shaders/pipelines/ambient.glsl"
+#include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
-#include "shaders/pipelines/pass_block.glsl"
 #include "shaders/scene/surface.glsl"
 #ifdef LIGHT
 #include "shaders/pipelines/surface_lighting.glsl"
@@ -36,16 +34,11 @@ void main() {
   light = vec4(reflectedFrom(uint(params.options.w), surface, p, ray.towardsViewer), 0.0);
 #else
 #ifdef TRANSLUCENT
-  float accessibility = 1.0;
   pass = vec4(surfacePass(stored), 1.0);
 #else
-  float accessibility = accessibilityAt(view, vec2(pixel) + 0.5, at, surface.geometricNormal, params.ambient.w);
   pass = vec4(0.0);
 #endif
   light = vec4(surface.emissive, 0.0);
-#ifdef AMBIENT
-  light.rgb += ambientFrom(surface, params.ambient.rgb, accessibility);
-#endif
   normal = vec4(0.5 + 0.5 * surface.normal, 0.0);
   depth = at;
 #endif

@@ -1,11 +1,13 @@
 // A ray of the camera on its walk, and the lights that may reach something along it.
 #include "shaders/lights/light_lists.glsl"
-#include "shaders/pipelines/pass_block.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
 #include "shaders/shared/view_block.glsl"
 
+layout(std140, binding = UNIFORM_PASS) uniform Pass {
+  ResolveParams params;
+};
 layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   ResolveCounters counters;
 };

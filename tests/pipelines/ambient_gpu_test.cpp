@@ -91,18 +91,6 @@ TEST_P(AmbientInPipelines, IsReflectedAsTheSurfaceIsColoured) {
   }
 }
 
-TEST_P(AmbientInPipelines, IsOccludedAsInTheCorePipeline) {
-  KnownScene known = tests::shinySpheres();
-  known.scene.lights.clear();
-  known.scene.ambient = {0.5, 0.75, 1};
-  Quality quality = fine;
-  const image::Image open = drawBy(GetParam(), known, quality);
-  quality.ambientOcclusion = {OcclusionSize::Half, 1};
-  const image::Image occluded = drawBy(GetParam(), known, quality);
-  EXPECT_LT(image::compare(occluded, drawBy("lund", known, quality)).relativeRmse, 1e-5);
-  EXPECT_GT(image::compare(occluded, open).relativeRmse, 0.01);
-}
-
 TEST_P(AmbientInPipelines, IsKeptIn8Bits) {
   if (GetParam() == "lund") return;  // has no such storage
   const tests::AmbientScene coloured = tests::ambientScenes()[1];
