@@ -620,6 +620,20 @@ TEST_F(CommandLineRender, WritesFigures) {
   EXPECT_GT(figures["memory"]["peak_bytes"], 64 * 48 * 36);
 }
 
+TEST_F(CommandLineRender, SaysWhatAmbientOcclusionWasAndTook) {
+  render({"scene.gltf", "-o", "out.png", "--stats", "out.json", "--ambient", "0.5,0.25,1", "--ssao", "half",
+          "--ssao-radius", "0.25"});
+  const Json figures = Json::parse(contentOf(path("out.json")));
+  std::set<std::string> passes;
+  for (const Json& pass : figures["frame"]["passes"]) passes.insert(pass["pass"]);
+  for (const char* pass : {"occlusion G-buffer", "ambient occlusion", "occlusion blur"})
+    EXPECT_TRUE(passes.contains(pass)) << pass;
+  EXPECT_EQ(figures["memory"]["peak_bytes_by_label"]["ambient occlusion"], 2 * 32 * 24 * 16);
+  const std::string picture = contentOf(path("out.png"));
+  for (const char* part : {"0.5 0.25 1", "half, radius 0.25 m"})
+    EXPECT_NE(picture.find(part), std::string::npos) << part;
+}
+
 TEST_F(CommandLineGpu, PlansWithoutOpenGl) {
   const auto before = listing(folder.path());
   const Outcome outcome = run(draft({"scene.gltf", "-n", "-o", "out.png", "--stats", "out.json"}), noEgl);
