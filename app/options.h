@@ -143,11 +143,35 @@ struct StressOptions {
   std::string report;  // folder, empty: none
 };
 
+struct BenchOptions {
+  // Device, command line, and of a scene what is seen of it; without one: panes and smoke.
+  RenderOptions shot{.width = 320, .height = 180};
+  std::vector<std::string> pipelines;  // empty: all
+  std::string exact = "auto";          // "cpu", "lund"
+  int repeat = 3;                      // frames that are timed
+  bool json = false;
+  std::string report;  // folder, empty: none
+};
+
+struct PapersOptions {
+  DeviceChoice device;
+  std::string commandLine;
+  std::string paper;  // "metu", "cescg"; empty: both
+  int width = 480;    // of what the papers drew with 1920 x 1080 pixels
+  int height = 270;
+  std::optional<glm::ivec2> lights;  // from, to: rows of the first paper's tables
+  int repeat = 3;
+  bool json = false;
+  std::string report;
+};
+
 // Each runs its subcommand; the result is the program's exit code. Errors are thrown as base::Error.
 int render(const RenderOptions& options);
 int compare(const CompareOptions& options);
 int info(const InfoOptions& options);
 int validate(const ValidateOptions& options);
 int stress(const StressOptions& options);
+int bench(const BenchOptions& options);
+int benchPapers(const PapersOptions& options);
 
 }  // namespace sfumato::app

@@ -159,6 +159,8 @@ pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
   return deferred;
 }
 
+}  // namespace
+
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
@@ -180,6 +182,8 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   quality.deferred = deferredOf(options);
   return quality;
 }
+
+namespace {
 
 std::string numbers(const glm::dvec3& v) {
   return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0);  // + 0.0: none is shown as -0
@@ -379,6 +383,22 @@ scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Med
   return scene::boundsOf(scene::boundingPoints(scene, mediaBoxes));
 }
 
+bool isOfScene(const RenderOptions& options) {
+  return !options.scene.empty() || !options.volumes.empty();
+}
+
+void checkWithoutScene(const RenderOptions& options) {
+  const std::pair<const char*, bool> given[] = {{"--grid", !options.grid.empty()},
+                                                {"--volume-scale", options.volumeScale.has_value()},
+                                                {"--camera", !options.camera.empty()},
+                                                {"--time", options.timeSeconds.has_value()},
+                                                {"--look-from", options.lookFrom.has_value()},
+                                                {"--look-at", options.lookAt.has_value()},
+                                                {"--fov", options.fovDegrees.has_value()}};
+  for (const auto& [name, is] : given)
+    if (is) fail(ExitCode::Usage, "{}: is for a scene: name a .gltf or .glb file", name);
+}
+
 Shot makeShot(const RenderOptions& options) {
   Shot shot;
   if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
@@ -401,7 +421,7 @@ Shot makeShot(const RenderOptions& options) {
 
 int render(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
-  if (options.scene.empty() && options.volumes.empty())
+  if (!isOfScene(options))
     fail(ExitCode::Usage, "render: no scene: name a .gltf or .glb file, or smoke with --volume FILE.vdb");
   checkPipeline(options);
   checkOutputs(options);

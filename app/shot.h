@@ -44,6 +44,13 @@ struct Shot {
   }
 };
 
+// Whether there is one: a file, or smoke, which gets a set.
+bool isOfScene(const RenderOptions& options);
+// Throws Usage where something was given that only a scene has.
+void checkWithoutScene(const RenderOptions& options);
+
+pipelines::Quality chooseQuality(const RenderOptions& options);
+
 // Reads everything that is drawn.
 Shot makeShot(const RenderOptions& options);
 // Of all that is there.

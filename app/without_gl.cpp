@@ -37,5 +37,14 @@ int stress(const StressOptions&) {
              "stress: this program was built without OpenGL: build it with SFUMATO_GL=ON");
 }
 
+int bench(const BenchOptions&) {
+  base::fail(base::ExitCode::NoGl,
+             "bench: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+}
+
+int benchPapers(const PapersOptions&) {
+  return bench({});
+}
+
 }  // namespace sfumato::app
 #endif

@@ -364,6 +364,10 @@ Image readFlattened(OIIO::ImageInput& input, const fs::path& path) {
 
 }  // namespace
 
+bool readsAndWritesImages() {
+  return true;
+}
+
 Image readImage(const fs::path& path) {
   const auto input = openImage(path);
   if (input->spec().deep) return readFlattened(*input, path);
@@ -496,6 +500,10 @@ namespace {
 }
 
 }  // namespace
+
+bool readsAndWritesImages() {
+  return false;
+}
 
 Image readImage(const std::filesystem::path& path) {
   failWithoutOpenImageIO(path.string());

@@ -15,6 +15,9 @@
 
 namespace sfumato::image {
 
+// Whether this build has it.
+bool readsAndWritesImages();
+
 // Reads any image that OpenImageIO knows as float, linear where the file says how it is encoded to be linear
 // (EXR), else as stored; of one with layers only R, G, B and A; of a deep one R, G and B, flattened. Throws
 // Input: missing, damaged, empty or larger than 2^31 values.

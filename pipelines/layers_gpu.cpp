@@ -123,10 +123,11 @@ gl::ShaderDefines LayeredFrame::storageDefines() const {
 }
 
 gl::ShaderDefines LayeredFrame::lightingDefines() const {
-  gl::ShaderDefines defines =
-      gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines());
-  if (interlaced_) defines.emplace_back("INTERLACED_SHADOWS", "1");
-  return defines;
+  const gl::ShaderDefines shadows =
+      interlaced_ ? deepshadow::lookupDefines(interlacedKind(shadowKind_, options().storage))
+                  : gl::ShaderDefines{};
+  return gl::joined(gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines()),
+                    shadows);
 }
 
 gl::ShaderDefines LayeredFrame::interlaceDefines() const {
@@ -210,7 +211,10 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
                       .viewport = {0, 0, view_.width, view_.height},
                       .depthTest = true,
                       .stencil = what.stencil});
-    scene_.geometry().draw(surfaces, true);
+    if (what.instance)
+      scene_.geometry().drawInstance(*what.instance, what.cull);
+    else
+      scene_.geometry().draw(surfaces, true);
   };
   if (what.surfaces != LayerDraw::Surfaces::Translucent) drawSurfaces(Layer::Opaque, {});
   if (what.surfaces == LayerDraw::Surfaces::Translucent) drawSurfaces(Layer::Translucent, {});
@@ -247,15 +251,25 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
   layer.bind();
   gl::setDrawState(state);
   gl::drawGenerated(device(), 3, 1);
-  state.blend = gl::Blend::Add;
-  state.program =
-      &device().program({"pipelines/light_volume.vert", "pipelines/light_volume.frag"}, lightingDefines());
+  addLights(layer, target, false);
+  return result;
+}
+
+void LayeredFrame::addLights(const SurfaceLayer& layer, const gl::Framebuffer& target, bool finished,
+                             const std::optional<gl::StencilTest>& stencil) {
+  gl::ShaderDefines defines = lightingDefines();
+  if (finished) defines.emplace_back("FINISHED", "1");
+  const gl::DrawState state{
+      .program = &device().program({"pipelines/light_volume.vert", "pipelines/light_volume.frag"}, defines),
+      .target = &target,
+      .viewport = {0, 0, view_.width, view_.height},
+      .blend = gl::Blend::Add,
+      .stencil = stencil};
   for (size_t i = 0; i < lightCount(); ++i) {
     takeTurn(i);
     layer.bind();
     drawLightVolume(i, state, params());
   }
-  return result;
 }
 
 Walk LayeredFrame::startWalk() const {
@@ -323,6 +337,7 @@ Frame LayeredFrame::finish(const Walk& walk) {
     statistics.shadowMaps = figuresOf(*shadows_);
     statistics.cutWalks += shadows_->cutMarches();
   }
+  if (interlaced_) statistics.shadowMaps.bytes = interlaced_->bytes();
   frame.statistics = statistics;
   return frame;
 }

@@ -44,6 +44,8 @@ struct LayerDraw {
   const SurfaceLayer* before = nullptr;  // only what is before these
   const SurfaceLayer* behind = nullptr;  // only what is behind these, by depth and order; they have numbers
   std::optional<gl::StencilTest> stencil;
+  std::optional<size_t> instance;  // of the scene: only this one, translucent
+  gl::Cull cull = gl::Cull::None;  // of that instance's faces
 };
 
 // Rays, one a pixel, that are taken from layer to layer and gather what is seen.
@@ -73,6 +75,9 @@ class LayeredFrame {
   void draw(const SurfaceLayer& target, const LayerDraw& what);
   // Light on a layer's surfaces; exact: radiance, 16 bytes a pixel; table storage: see layer.glsl, 4 bytes.
   gl::Texture light(const SurfaceLayer& layer);
+  // Adds what lights give to a layer's surfaces; `finished`: as radiance, in table storage, too.
+  void addLights(const SurfaceLayer& layer, const gl::Framebuffer& target, bool finished,
+                 const std::optional<gl::StencilTest>& stencil = {});
 
   Walk startWalk() const;
   // Through the smoke up to the layer's surfaces and past them; `last`: and no further. How many rays met

@@ -5,6 +5,7 @@
 #include "pipelines/linked_lists_gpu.h"
 #include "pipelines/peeling_gpu.h"
 #include "pipelines/pipeline_names.h"
+#include "pipelines/reentrant_gpu.h"
 #include "pipelines/stencil_routed_gpu.h"
 
 namespace sfumato::pipelines {
@@ -21,6 +22,7 @@ std::unique_ptr<Pipeline> makePipeline(const std::string& name, gl::Device& devi
     return std::make_unique<ForwardPipeline>(ForwardPipeline::Refraction::ByMask, device, scene, media,
                                              gridOptions);
   if (name == "peeling") return std::make_unique<PeelingPipeline>(device, scene, media, gridOptions);
+  if (name == "reentrant") return std::make_unique<ReentrantPipeline>(device, scene, media, gridOptions);
   if (name == "stencil-routed")
     return std::make_unique<StencilRoutedPipeline>(device, scene, media, gridOptions);
   return std::make_unique<LinkedListsPipeline>(device, scene, media, gridOptions);

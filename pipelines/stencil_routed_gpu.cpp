@@ -26,6 +26,67 @@ int passesFor(int fragments, int samples) {
   return (fragments + samples - 1) / samples;
 }
 
+gl::ShaderDefines samplesDefine(int samples) {
+  return {{"ROUTED_SAMPLES", std::to_string(samples)}};
+}
+
+gl::Texture stencilFor(gl::Device& device, glm::ivec2 size, int samples) {
+  return gl::Texture(
+      device, "routing stencil",
+      {.format = gl::Format::Depth32FStencil8, .size = {size.x, size.y, 1}, .samples = samples});
+}
+
+// Sample i of every pixel begins with `first` + i.
+void startStencil(gl::Device& device, const gl::Texture& stencil, int samples, int first) {
+  const gl::Framebuffer target({}, &stencil);
+  gl::DrawState state{
+      .program = &device.program({"pipelines/whole_image.vert", "pipelines/stencil_only.frag"}),
+      .target = &target,
+      .viewport = {0, 0, target.size().x, target.size().y}};
+  for (int i = 0; i < samples; ++i) {
+    state.stencil = gl::StencilTest{.reference = first + i, .passed = gl::StencilChange::Replace};
+    state.sampleMask = 1u << i;
+    gl::setDrawState(state);
+    gl::drawGenerated(device, 3, 1);
+  }
+}
+
+// Draws what comes into the samples that take it; all samples of a pixel count it.
+gl::DrawState routing(const gl::Program& program, const gl::Framebuffer& target, glm::ivec4 viewport,
+                      bool multisample = false) {
+  return {.program = &program,
+          .target = &target,
+          .viewport = viewport,
+          .stencil = gl::StencilTest{.compare = gl::Compare::Equal,
+                                     .reference = taken,
+                                     .passed = gl::StencilChange::Decrement,
+                                     .failed = gl::StencilChange::Decrement},
+          .multisample = multisample};
+}
+
+// Samples of a pixel that a fragment at its centre can be routed to: one where the driver looks at the
+// stencil value of one sample and writes to all (Mesa's llvmpipe), or still asks which samples a triangle
+// covers.
+int routableSamples(gl::Device& device) {
+  const int samples = device.limits().samples;
+  if (samples <= 1) return 1;
+  const gl::Texture image(device, "routing probe", {.format = gl::Format::R32UI, .samples = samples});
+  const gl::Texture stencil = stencilFor(device, {1, 1}, samples);
+  const gl::Framebuffer target(std::vector<const gl::Texture*>{&image}, &stencil);
+  target.clearColour(0, glm::uvec4(0));
+  startStencil(device, stencil, samples, taken);
+  gl::setDrawState(routing(device.program({"pipelines/routing_probe.vert", "pipelines/routing_probe.frag"}),
+                           target, {0, 0, 1, 1}));
+  gl::drawGenerated(device, 3, 1);
+  gl::Buffer counters(device, "walk counters", sizeof(shared::ResolveCounters));
+  counters.clear();
+  counters.bindStorage(STORAGE_COUNTERS);
+  image.bind(TEXTURE_ROUTED_KEYS);
+  gl::dispatch(device.program({"pipelines/routing_probe.comp"}, samplesDefine(samples)), {1, 1, 1});
+  gl::storageBarrier();
+  return counters.readValue<shared::ResolveCounters>().groups == 1 ? samples : 1;
+}
+
 // Translucent fragments of one band of the image.
 struct Samples {
   gl::Texture surface[3];  // arrays: a layer a pass
@@ -35,10 +96,11 @@ struct Samples {
 
 class Router {
  public:
-  Router(LayeredFrame& frame, const SurfaceLayer& opaque)
+  Router(LayeredFrame& frame, const SurfaceLayer& opaque, int samples, bool multisample)
       : frame_(frame),
         opaque_(opaque),
-        samples_(samplesOf(frame)),
+        samples_(samples),
+        multisample_(multisample),
         bandView_(frame.device(), "camera view", sizeof(shared::ViewParams)),
         passBlock_(frame.device(), "layer pass", sizeof(shared::ResolveParams)) {
     count();
@@ -62,12 +124,6 @@ class Router {
     Tile tile;
     int fragments = 0;  // of its fullest pixel
   };
-
-  static int samplesOf(const LayeredFrame& frame) {
-    const int most = std::max(1, frame.device().limits().samples);
-    const int wanted = frame.options().samples;
-    return wanted > 0 ? std::min(wanted, most) : most;
-  }
 
   // How many fragments each pixel has, and the most in each row.
   void count() {
@@ -131,9 +187,7 @@ class Router {
     for (size_t i = 0; i < std::size(samples.surface); ++i)
       samples.surface[i] = image(frame_.surfaceFormats()[i]);
     samples.keys = image(gl::Format::RG32UI);
-    samples.stencil = gl::Texture(
-        frame_.device(), "routing stencil",
-        {.format = gl::Format::Depth32FStencil8, .size = {size.x, size.y, 1}, .samples = samples_});
+    samples.stencil = stencilFor(frame_.device(), {size.x, size.y}, samples_);
     return samples;
   }
 
@@ -145,25 +199,10 @@ class Router {
     gl::Texture pageEnd;
     for (int pass = 0; pass < passesFor(band.fragments, samples_); ++pass) {
       if (pass > 0 && pass % pagePasses == 0) pageEnd = lastFragments(band, samples, pass - 1);
-      startStencil(band, samples, taken + pass % pagePasses * samples_);
+      startStencil(frame_.device(), samples.stencil, samples_, taken + pass % pagePasses * samples_);
       routePass(band, samples, pass, pass >= pagePasses ? &pageEnd : nullptr);
     }
     return samples;
-  }
-
-  // Sample i begins with `first` + i.
-  void startStencil(const Band& band, const Samples& samples, int first) const {
-    const gl::Framebuffer target({}, &samples.stencil);
-    gl::DrawState state{
-        .program = &frame_.device().program({"pipelines/whole_image.vert", "pipelines/stencil_only.frag"}),
-        .target = &target,
-        .viewport = {0, 0, band.tile.width, band.tile.height}};
-    for (int i = 0; i < samples_; ++i) {
-      state.stencil = gl::StencilTest{.reference = first + i, .passed = gl::StencilChange::Replace};
-      state.sampleMask = 1u << i;
-      gl::setDrawState(state);
-      gl::drawGenerated(frame_.device(), 3, 1);
-    }
   }
 
   void routePass(const Band& band, const Samples& samples, int pass, const gl::Texture* pageEnd) {
@@ -179,15 +218,9 @@ class Router {
       defines.emplace_back("PAGED", "1");
       pageEnd->bind(TEXTURE_ROUTED_PAGE);
     }
-    gl::setDrawState(
-        {.program = &frame_.device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
-         .target = &target,
-         .viewport = {-band.tile.x, -band.tile.y, frame_.view().width, frame_.view().height},
-         .stencil = gl::StencilTest{.compare = gl::Compare::Equal,
-                                    .reference = taken,
-                                    .passed = gl::StencilChange::Decrement,
-                                    .failed = gl::StencilChange::Decrement},
-         .multisample = false});
+    gl::setDrawState(routing(frame_.device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
+                             target, {-band.tile.x, -band.tile.y, frame_.view().width, frame_.view().height},
+                             multisample_));
     geometry.draw(Layer::Translucent, true);
   }
 
@@ -199,20 +232,19 @@ class Router {
     passBlock_.writeValue(shared::ResolveParams{.options = {pass, 0, 0, 0}});
     passBlock_.bindUniform(UNIFORM_PASS);
     samples.keys.bind(TEXTURE_ROUTED_KEYS);
-    gl::setDrawState({.program = &frame_.device().program(
-                          {"pipelines/whole_image.vert", "pipelines/routed_page.frag"}, samplesDefine()),
-                      .target = &target,
-                      .viewport = {0, 0, band.tile.width, band.tile.height}});
+    gl::setDrawState(
+        {.program = &frame_.device().program({"pipelines/whole_image.vert", "pipelines/routed_page.frag"},
+                                             samplesDefine(samples_)),
+         .target = &target,
+         .viewport = {0, 0, band.tile.width, band.tile.height}});
     gl::drawGenerated(frame_.device(), 3, 1);
     return last;
   }
 
-  gl::ShaderDefines samplesDefine() const { return {{"ROUTED_SAMPLES", std::to_string(samples_)}}; }
-
   void walkPast(const Band& band, const Samples& samples, const Walk& walk) {
     const Profiler::Scope time(frame_.device().profiler(), "walk");
     const gl::Program& program = frame_.device().program(
-        {"pipelines/routed_walk.comp"}, gl::joined(frame_.lightingDefines(), samplesDefine()));
+        {"pipelines/routed_walk.comp"}, gl::joined(frame_.lightingDefines(), samplesDefine(samples_)));
     gl::Buffer counters(frame_.device(), "walk counters", sizeof(shared::ResolveCounters));
     gl::Buffer met(frame_.device(), "routed walk", band.tile.pixels() * sizeof(glm::uvec2));
     shared::ResolveParams params = frame_.params();
@@ -240,6 +272,7 @@ class Router {
   LayeredFrame& frame_;
   const SurfaceLayer& opaque_;
   const int samples_;
+  const bool multisample_;
   gl::Buffer bandView_;
   gl::Buffer passBlock_;
   gl::Texture counts_;
@@ -251,7 +284,12 @@ class Router {
 StencilRoutedPipeline::StencilRoutedPipeline(gl::Device& device, const scene::Scene& scene,
                                              std::span<const volumes::Medium> media,
                                              const volumes::GridOptions& gridOptions)
-    : scene_(device, scene, media, gridOptions) {}
+    : scene_(device, scene, media, gridOptions), mostSamples_(routableSamples(device)) {}
+
+void StencilRoutedPipeline::coverWholePixels() {
+  mostSamples_ = std::max(1, scene_.device().limits().samples);
+  multisample_ = true;
+}
 
 Frame StencilRoutedPipeline::render(const scene::Camera& camera, int width, int height,
                                     const Quality& quality, const FrameOptions& options) {
@@ -259,7 +297,9 @@ Frame StencilRoutedPipeline::render(const scene::Camera& camera, int width, int 
   const SurfaceLayer opaque = frame.layer("opaque layer");
   frame.draw(opaque, {});
   Walk walk = frame.startWalk();
-  if (scene_.geometry().has(Layer::Translucent)) Router(frame, opaque).walk(walk);
+  const int wanted = quality.deferred.samples;
+  const int samples = wanted > 0 ? std::min(wanted, mostSamples_) : mostSamples_;
+  if (scene_.geometry().has(Layer::Translucent)) Router(frame, opaque, samples, multisample_).walk(walk);
   frame.walkTo(opaque, frame.light(opaque), true, walk);
   options.onTile();
   return frame.finish(walk);

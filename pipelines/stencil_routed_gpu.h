@@ -7,6 +7,10 @@
 // keeps fragments k S to (k + 1) S - 1, each pass in a layer of its own. Stencil values count to 255 only:
 // later passes leave out what earlier ones kept, and count from the start again. So nothing is lost, and any
 // number of lights is met, by the light lists of a pixel's cell.
+//
+// Fragments are made at the centres of pixels and tested against each sample's stencil value, as OpenGL has
+// it where multisampling is off. Some drivers do not (Mesa's llvmpipe): they get one sample and a pass for
+// each fragment.
 #pragma once
 
 #include "pipelines/pipeline_gpu.h"
@@ -19,17 +23,23 @@ class StencilRoutedPipeline : public Pipeline {
   StencilRoutedPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
                         const volumes::GridOptions& gridOptions = {});
 
-  // With S samples (DeferredOptions::samples, at most the device's) and n fragments in the fullest pixel a
-  // pixel costs, beside a layer, its light and its ray (pipelines/layers_gpu.h), 12 bytes, 8 S of stencil,
-  // and ceil(n / S) S times 48 bytes (20 in table storage). Where that is more than Quality::lists allows, or
-  // 512 MiB, the image is drawn in bands of rows, one of them at least. Throws Memory where a band has no
-  // room, or its fullest pixel more fragments than 2,048 layers hold.
+  // With S samples (DeferredOptions::samples, at most those that the driver routes to) and n fragments in the
+  // fullest pixel a pixel costs, beside a layer, its light and its ray (pipelines/layers_gpu.h), 12 bytes, 8
+  // S of stencil, and ceil(n / S) S times 48 bytes (20 in table storage). Where that is more than
+  // Quality::lists allows, or 512 MiB, the image is drawn in bands of rows, one of them at least. Throws
+  // Memory where a band has no room, or its fullest pixel more fragments than 2,048 layers hold.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
   const SceneGpu& scene() const override { return scene_; }
 
+  // Only for tests, of scenes whose triangles all cover whole pixels: any driver routes those to its samples,
+  // with multisampling on.
+  void coverWholePixels();
+
  private:
   SceneGpu scene_;
+  int mostSamples_;
+  bool multisample_ = false;
 };
 
 }  // namespace sfumato::pipelines

@@ -1,4 +1,4 @@
-// What a light adds to a layer's surfaces. TABLE_STORAGE: see layer.glsl.
+// What a light adds to a layer's surfaces. TABLE_STORAGE: see layer.glsl; FINISHED: radiance all the same.
 #define SAMPLES 1
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer.glsl"
@@ -14,7 +14,7 @@ void main() {
   vec3 p = ray.origin + depth * ray.perDepth;
   Surface surface = unpackSurface(layerSurface(pixel));
   uint number = uint(params.options.w);
-#ifdef TABLE_STORAGE
+#if defined(TABLE_STORAGE) && !defined(FINISHED)
   vec3 toLight;
   vec3 received = receivedFrom(number, surface, p, toLight);
   vec3 mirrored;

@@ -5,9 +5,10 @@
 #define ROUTED
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer.glsl"
-#include "shaders/pipelines/smoke_segment.glsl"
 #include "shaders/pipelines/surface_lighting.glsl"
 #include "shaders/shared/linear_id.glsl"
+// Last: what it includes, it includes only where there is smoke.
+#include "shaders/pipelines/smoke_segment.glsl"
 
 layout(std430, binding = STORAGE_RAYS) buffer Rays {
   RayState rays[];

@@ -70,6 +70,8 @@
 #define TEXTURE_LAYER_LIGHT 13
 #define TEXTURE_PEELED_DEPTH 14
 #define TEXTURE_PEELED_ID 17
+#define TEXTURE_FINISHED_LIGHT 13
+#define TEXTURE_FINISHED_DEPTH 14
 #define TEXTURE_ROUTED_KEYS 14  // of the fragments in samples: depth, number
 #define TEXTURE_ROUTED_COUNTS 13  // of fragments of a pixel
 #define TEXTURE_ROUTED_PAGE 14  // while they are drawn

@@ -12,30 +12,42 @@ const TemporaryFolder& folder() {
 }
 
 TEST(CommandLine, NamesTheArgumentThatIsWrong) {
-  expectErrors(folder().path(),
-               {
-                   {{}, 2, "no command"},
-                   {{"frobnicate"}, 2, "frobnicate: no such command"},
-                   {{"--frob"}, 2, "--frob: no such option"},
-                   {{"info", "--frob"}, 2, "--frob: no such option: see `sfumato info --help`"},
-                   {{"info", "more"}, 2, "more: is one argument too many"},
-                   {{"info", "--shader-dir", "nowhere"}, 2, "--shader-dir: \"nowhere\" is not a folder"},
-                   {{"render", "--frob"}, 2, "--frob: no such option: see `sfumato render --help`"},
-                   {{"render", "a.gltf", "b.gltf"}, 2, "b.gltf: is one argument too many"},
-                   {{"render", ""}, 2, "SCENE: \"\" is no file"},
-                   {{"render", "a.gltf", "-o"}, 2, "--output: takes FILE"},
-                   {{"render", "a.gltf", "-o", ""}, 2, "--output: \"\" is no file"},
-                   {{"render", "a.gltf", "--stats", ""}, 2, "--stats: \"\" is no file"},
-                   {{"render", "a.gltf", "--volume", ""}, 2, "--volume: \"\" is no file"},
-                   {{"render", "a.gltf", "--res"}, 2, "--res: takes WxH"},
-                   {{"render", "a.gltf", "--res", "8x8", "--res", "9x9"}, 2, "--res: takes WxH, once"},
-                   {{"render", "a.gltf", "--look-at", "1", "2"}, 2, "--look-at: takes X Y Z"},
-                   {{"render", "a.gltf", "--quality", "foo"}, 2, "--quality: \"foo\" is none of draft, "},
-                   {{"render", "a.gltf", "--tonemap", "foo"}, 2, "--tonemap: \"foo\" is none of neutral, "},
-                   {{"render", "a.gltf", "--bloom", "on"}, 2, "--bloom: \"on\" is none of off, separable, "},
-                   {{"render", "a.gltf", "--aa", "4"}, 2, "--aa: \"4\" is none of off, edges"},
-                   {{"render", "a.gltf", "--aa"}, 2, "--aa: takes NAME"},
-               });
+  expectErrors(
+      folder().path(),
+      {
+          {{}, 2, "no command"},
+          {{"frobnicate"}, 2, "frobnicate: no such command"},
+          {{"--frob"}, 2, "--frob: no such option"},
+          {{"info", "--frob"}, 2, "--frob: no such option: see `sfumato info --help`"},
+          {{"info", "more"}, 2, "more: is one argument too many"},
+          {{"info", "--shader-dir", "nowhere"}, 2, "--shader-dir: \"nowhere\" is not a folder"},
+          {{"render", "--frob"}, 2, "--frob: no such option: see `sfumato render --help`"},
+          {{"render", "a.gltf", "b.gltf"}, 2, "b.gltf: is one argument too many"},
+          {{"render", ""}, 2, "SCENE: \"\" is no file"},
+          {{"render", "a.gltf", "-o"}, 2, "--output: takes FILE"},
+          {{"render", "a.gltf", "-o", ""}, 2, "--output: \"\" is no file"},
+          {{"render", "a.gltf", "--stats", ""}, 2, "--stats: \"\" is no file"},
+          {{"render", "a.gltf", "--volume", ""}, 2, "--volume: \"\" is no file"},
+          {{"render", "a.gltf", "--res"}, 2, "--res: takes WxH"},
+          {{"render", "a.gltf", "--res", "8x8", "--res", "9x9"}, 2, "--res: takes WxH, once"},
+          {{"render", "a.gltf", "--look-at", "1", "2"}, 2, "--look-at: takes X Y Z"},
+          {{"render", "a.gltf", "--quality", "foo"}, 2, "--quality: \"foo\" is none of draft, "},
+          {{"render", "a.gltf", "--tonemap", "foo"}, 2, "--tonemap: \"foo\" is none of neutral, "},
+          {{"render", "a.gltf", "--bloom", "on"}, 2, "--bloom: \"on\" is none of off, separable, "},
+          {{"render", "a.gltf", "--aa", "4"}, 2, "--aa: \"4\" is none of off, edges"},
+          {{"render", "a.gltf", "--aa"}, 2, "--aa: takes NAME"},
+          {{"bench"}, 2, "name pipelines or papers: see `sfumato bench --help`"},
+          {{"bench", "--frob"}, 2, "--frob: no such option: see `sfumato bench --help`"},
+          {{"bench", "shapes"}, 2, "shapes: is one argument too many"},
+          {{"bench", "pipelines", "--frob"}, 2, "see `sfumato bench pipelines --help`"},
+          {{"bench", "pipelines", "--res"}, 2, "--res: takes WxH, once: see `sfumato bench pipelines"},
+          {{"bench", "pipelines", "--pipelines", "foo"}, 2, "--pipelines: \"foo\" is none of lund"},
+          {{"bench", "pipelines", "--exact", "foo"}, 2, "--exact: \"foo\" is none of cpu, lund"},
+          {{"bench", "pipelines", "--repeat", "0"}, 2, "--repeat: \"0\" is not a whole number"},
+          {{"bench", "papers", "a.gltf"}, 2, "a.gltf: is one argument too many"},
+          {{"bench", "papers", "--paper", "foo"}, 2, "--paper: \"foo\" is none of metu, cescg"},
+          {{"bench", "papers", "--lights", "2..65"}, 2, "--lights: \"2..65\" is not a range"},
+      });
 }
 
 TEST(CommandLine, TakesOnlyResolutionsThatAreOne) {
@@ -101,6 +113,9 @@ TEST(CommandLine, ShowsHelpAndVersion) {
                                                            {"render", "--help"},
                                                            {"compare", "--help"},
                                                            {"stress", "--help"},
+                                                           {"bench", "--help"},
+                                                           {"bench", "pipelines", "--help"},
+                                                           {"bench", "papers", "--help"},
                                                            {"info", "--help"}}) {
     const Outcome outcome = runProgram(folder().path(), arguments);
     EXPECT_EQ(outcome.exitCode, 0);
@@ -136,6 +151,7 @@ TEST(CommandLine, SurvivesClosedStderr) {
 TEST(CommandLine, SaysThatItWasBuiltWithoutOpenGl) {
   folder().write("empty.gltf", GltfBuilder().text());
   expectErrors(folder().path(), {{{"render", "empty.gltf", "-q", "-o", "a.png"}, 4, "built without OpenGL"},
+                                 {{"bench", "papers"}, 4, "built without OpenGL"},
                                  {{"info"}, 4, "built without OpenGL"}});
 }
 #endif
