@@ -376,7 +376,7 @@ void applyEffects(const CLI::App& command, RenderOptions& options) {
 void addEffects(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--effects", options.effects,
-                  "low, medium or high: reinhard, mipmap, edges, --ssao and shadow maps to suit; flags win")
+                  "low, medium, high: tone map, bloom, edges, --ssao at once; flags win")
       ->type_name("NAME")
       ->check(oneOf(effectsNames()))
       ->excludes("--reference")

@@ -532,28 +532,28 @@ TEST_F(CommandLineRender, ShapesPicturesAndKeepsRadiance) {
         Row{{"--aa", "edges"}, "anti_aliasing"},
         Row{{"--tonemap", "reinhard", "--white", "2"}, "white_luminance"}}) {
     SCOPED_TRACE(setting);
-    for (const bool reference : {false, true}) {
-      Arguments arguments = {"scene.gltf", "-o", "out.exr", "-o", "out.png", "--stats", "out.json"};
-      arguments.insert(arguments.end(), flags.begin(), flags.end());
-      if (reference) arguments.push_back("--reference");
-      render(arguments);
-      if (!reference) {
-        EXPECT_EQ(picture("out.exr").values, radiance.values);
-      }
-      EXPECT_THROW(image::readLayer(path("out.exr"), "depth"), base::Error);
-      EXPECT_GT(image::compare(picture("out.png"), plain).relativeRmse, 1e-3);
-      EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos);
-    }
+    Arguments arguments = {"scene.gltf", "-o", "out.exr", "-o", "out.png"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    render(arguments);
+    EXPECT_EQ(picture("out.exr").values, radiance.values);
+    EXPECT_THROW(image::readLayer(path("out.exr"), "depth"), base::Error);
+    EXPECT_GT(image::compare(picture("out.png"), plain).relativeRmse, 1e-3);
+    EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos);
   }
 }
 
+TEST_F(CommandLineRender, ShapesPicturesOfTheReference) {
+  render({"scene.gltf", "--reference", "-o", "plain.png"});
+  render({"scene.gltf", "--reference", "-o", "out.exr", "-o", "out.png", "--aa", "edges"});
+  EXPECT_THROW(image::readLayer(path("out.exr"), "depth"), base::Error);
+  EXPECT_GT(image::compare(picture("out.png"), picture("plain.png")).relativeRmse, 1e-2);
+}
+
 TEST_F(CommandLineRender, ShapesPicturesOfEveryPipeline) {
+  render({"scene.gltf", "-o", "plain.png"});
   for (const std::string& pipeline : pipelines::pipelineNames()) {
-    SCOPED_TRACE(pipeline);
-    render({"scene.gltf", "--pipeline", pipeline, "-o", "plain.exr", "-o", "plain.png"});
-    render({"scene.gltf", "--pipeline", pipeline, "-o", "out.exr", "-o", "out.png", "--aa", "edges"});
-    EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
-    EXPECT_GT(image::compare(picture("out.png"), picture("plain.png")).relativeRmse, 1e-2);
+    render({"scene.gltf", "--pipeline", pipeline, "-o", "out.png", "--aa", "edges"});
+    EXPECT_GT(image::compare(picture("out.png"), picture("plain.png")).relativeRmse, 1e-2) << pipeline;
   }
 }
 
