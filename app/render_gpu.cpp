@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "app/display_gpu.h"
 #include "app/shot.h"
 #include "app/statistics_gpu.h"
 #include "base/log.h"
@@ -28,7 +29,7 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::Pipeline& pipeline, c
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
     frame = pipeline.render(shot.camera, options.width, options.height, quality,
-                            {.aovs = shot.aovs,
+                            {.aovs = shot.aovsToDraw(),
                              .deep = !options.deep.empty(),
                              .deepShadows = shot.deepShadows,
                              .countLookups = !options.statistics.empty(),
@@ -77,12 +78,13 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   base::note("start-up: {:.2f} s", times.startupSeconds);
 
   pipelines::Frame frame = drawFrames(device, *pipeline, shot, options, times.frameSeconds);
+  Drawn drawn{std::move(frame.radiance), std::move(frame.aovs), std::move(frame.deep),
+              std::move(frame.deepShadows), device.names().renderer};
+  postProcess(device, options, shot, drawn);
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   noteShadowMaps(frame.statistics);
   warnOfProblems(device, frame.statistics);
-  Drawn drawn{std::move(frame.radiance),    std::move(frame.aovs),   std::move(frame.deep),
-              std::move(frame.deepShadows), device.names().renderer, {}};
   if (options.statistics.empty()) return drawn;
   const pipelines::ListPrediction fromBounds = pipelines::predictLists(
       shot.scene, shot.media, shot.camera, options.width, options.height, shot.quality);

@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "gl/program.h"
 #include "lights/light_reach.h"
+#include "lights/light_scissor.h"
+#include "scene/light_faces.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/layers.h"
 #include "shaders/shared/surface.h"
@@ -38,14 +40,17 @@ bool mayBeInside(const lights::Light& light, double reach, const scene::Camera& 
   return glm::distance(eye, light.position) < meshExcess * reach + 2 * camera.nearDistance;
 }
 
-std::vector<lights::ShadowFaces> facesOf(const std::optional<deepshadow::Maps>& shadows, size_t lights) {
-  std::vector<lights::ShadowFaces> faces(lights);
-  if (shadows)
-    std::transform(shadows->lights().begin(), shadows->lights().end(), faces.begin(),
-                   [](const deepshadow::LightMap& map) {
-                     return lights::ShadowFaces{map.firstFace, map.faces};
-                   });
+template <typename Maps>
+std::vector<lights::ShadowFaces> facesOf(const Maps& maps) {
+  std::vector<lights::ShadowFaces> faces;
+  for (const auto& map : maps.lights()) faces.push_back({map.firstFace, map.faces});
   return faces;
+}
+
+deepshadow::InterlacedKind interlacedKind(ShadowKind kind, Storage storage) {
+  if (kind == ShadowKind::Opaque) return deepshadow::InterlacedKind::Opaque;
+  return storage == Storage::Table ? deepshadow::InterlacedKind::Thesis
+                                   : deepshadow::InterlacedKind::Transmittance;
 }
 
 }  // namespace
@@ -58,21 +63,54 @@ void SurfaceLayer::bind() const {
 }
 
 LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, int width, int height,
-                           const Quality& quality, ShadowKind usualShadows)
+                           const Quality& quality, const UsualShadows& usual)
     : scene_(scene),
       view_(viewOf(scene.scene(), camera, width, height)),
       quality_(quality),
-      shadowKind_(quality.deferred.shadows.value_or(usualShadows)),
+      shadowKind_(quality.deferred.shadows.value_or(usual.kind)),
       viewBlock_(scene.device(), "camera view", sizeof(shared::ViewParams)),
       passBlock_(scene.device(), "layer pass", sizeof(shared::ResolveParams)) {
   view_.params.depthRange.z = depthScale(view_.seen, camera);
   viewBlock_.writeValue(view_.params);
-  if (shadowKind_ == ShadowKind::Deep) shadows_ = scene.buildShadows(view_, quality);
-  const auto faces = facesOf(shadows_, scene.lights().size());
+  const auto faces = buildShadows(usual.lightsOnce);
   const Profiler::Scope time(device().profiler(), "light lists");
   lightLists_.emplace(device(), lights::LightListInputs{scene.lights(), faces, viewBlock_, width, height,
                                                         std::nullopt, nullptr, quality.lists});
   statistics.lights = lightLists_->statistics();
+}
+
+// Where the lights find their shadows.
+std::vector<lights::ShadowFaces> LayeredFrame::buildShadows(bool lightsOnce) {
+  std::vector<lights::ShadowFaces> none(scene_.lights().size());
+  if (shadowKind_ == ShadowKind::None) return none;
+  if (shadowKind_ == ShadowKind::Deep) {
+    shadows_ = scene_.buildShadows(view_, quality_);
+    return facesOf(*shadows_);
+  }
+  interlaced_.emplace();
+  ShadowInputs inputs = scene_.shadowInputs(view_, quality_);
+  if (lightsOnce && scene_.volumes().empty()) {
+    turns_ = std::move(inputs);
+    for (size_t i = 0; i < none.size(); ++i)
+      if (scene_.lights()[i].castsShadow && turns_->resolutions[i] > 0)
+        none[i] = {0, scene::faceCount(scene_.lights()[i])};
+    return none;
+  }
+  buildInterlaced(inputs, 0, scene_.lights().size());
+  return facesOf(*interlaced_);
+}
+
+void LayeredFrame::buildInterlaced(const ShadowInputs& inputs, size_t first, size_t count) {
+  interlaced_->build(device(), {.lights = std::span(scene_.lights()).subspan(first, count),
+                                .resolutions = std::span(inputs.resolutions).subspan(first, count),
+                                .casters = inputs.casters,
+                                .receivers = inputs.receivers,
+                                .castingPoints = inputs.castingPoints,
+                                .kind = interlacedKind(shadowKind_, options().storage)});
+}
+
+void LayeredFrame::takeTurn(size_t number) {
+  if (turns_) buildInterlaced(*turns_, static_cast<size_t>(lightLists_->order()[number]), 1);
 }
 
 size_t LayeredFrame::pixels() const {
@@ -85,7 +123,15 @@ gl::ShaderDefines LayeredFrame::storageDefines() const {
 }
 
 gl::ShaderDefines LayeredFrame::lightingDefines() const {
-  return gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines());
+  gl::ShaderDefines defines =
+      gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines());
+  if (interlaced_) defines.emplace_back("INTERLACED_SHADOWS", "1");
+  return defines;
+}
+
+gl::ShaderDefines LayeredFrame::interlaceDefines() const {
+  return {{"INTERLACE",
+           options().interlace == Interlace::Checkerboard ? "INTERLACE_CHECKERBOARD" : "INTERLACE_LINES"}};
 }
 
 const lights::Light& LayeredFrame::light(size_t number) const {
@@ -94,8 +140,7 @@ const lights::Light& LayeredFrame::light(size_t number) const {
 
 shared::ResolveParams LayeredFrame::params() const {
   shared::ResolveParams params{};
-  params.march = {static_cast<float>(quality_.stepVoxels), static_cast<float>(quality_.throughputCutoff), 0.f,
-                  0.f};
+  params.march = {quality_.stepVoxels, quality_.throughputCutoff, options().refraction * view_.height, 0};
   params.options = {0, tapsOf(quality_.surfaceShadows) + 8 * tapsOf(quality_.smokeShadows),
                     lightLists_->directionalLights(), 0};
   return params;
@@ -107,6 +152,7 @@ void LayeredFrame::bind(const shared::ResolveParams& params) {
   viewBlock_.bindUniform(UNIFORM_VIEW);
   lightLists_->bind();
   if (shadows_) shadows_->bind();
+  if (interlaced_) interlaced_->bind();
   scene_.volumes().bind();
 }
 
@@ -171,14 +217,14 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
   };
   if (what.surfaces != LayerDraw::Surfaces::Translucent) drawSurfaces(Layer::Opaque, {});
   if (what.surfaces == LayerDraw::Surfaces::Translucent) drawSurfaces(Layer::Translucent, {});
-  if (what.surfaces == LayerDraw::Surfaces::Interlaced)
-    drawSurfaces(Layer::Translucent,
-                 {{"INTERLACE", options().interlace == Interlace::Checkerboard ? "INTERLACE_CHECKERBOARD"
-                                                                               : "INTERLACE_LINES"}});
+  if (what.surfaces == LayerDraw::Surfaces::Interlaced) drawSurfaces(Layer::Translucent, interlaceDefines());
 }
 
 void LayeredFrame::drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params) {
   const lights::Light& light = this->light(number);
+  const auto scissor = lights::lightScissor(light, view_.params);
+  if (!scissor) return;
+  state.scissor = scissor;
   shared::ResolveParams ofLight = params;
   ofLight.options.w = static_cast<int>(number);
   bind(ofLight);
@@ -218,35 +264,55 @@ void LayeredFrame::addLights(const SurfaceLayer& layer, const gl::Framebuffer& t
       .viewport = {0, 0, view_.width, view_.height},
       .blend = gl::Blend::Add,
       .stencil = stencil};
-  layer.bind();
-  for (size_t i = 0; i < lightCount(); ++i) drawLightVolume(i, state, params());
+  for (size_t i = 0; i < lightCount(); ++i) {
+    takeTurn(i);
+    layer.bind();
+    drawLightVolume(i, state, params());
+  }
 }
 
 Walk LayeredFrame::startWalk() const {
   std::vector<shared::RayState> states(
       pixels(), {.depth = view_.params.depthRange.x, .throughputR = 1, .throughputG = 1, .throughputB = 1});
-  return {gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0};
+  Walk walk{gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0, {}};
+  if (options().refraction > 0) {
+    walk.bends = gl::Buffer(device(), "bends", pixels() * sizeof(glm::uvec2));
+    walk.bends.clear();
+  }
+  return walk;
 }
 
 size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk) {
   const Profiler::Scope time(device().profiler(), "walk");
   gl::ShaderDefines defines = lightingDefines();
   if (last) defines.emplace_back("LAST", "1");
-  const gl::Program& program = device().program({"pipelines/layer_walk.comp"}, defines);
-  gl::Buffer counters(device(), "walk counters", sizeof(shared::ResolveCounters));
+  const bool bent = options().refraction > 0;
+  if (bent) defines.emplace_back("BENT", "1");
   shared::ResolveParams params = this->params();
   params.options.x = ++walk.layers;
-  params.options.w = static_cast<int>(pixels());
+  return dispatchWalk(
+      device().program({"pipelines/layer_walk.comp"}, defines), params,
+      [&] {
+        layer.bind();
+        light.bind(TEXTURE_LAYER_LIGHT);
+        if (bent) walk.bends.bindStorage(STORAGE_BENDS);
+      },
+      walk);
+}
+
+size_t LayeredFrame::dispatchWalk(const gl::Program& program, shared::ResolveParams params,
+                                  const std::function<void()>& bindInputs, Walk& walk) {
+  gl::Buffer counters(device(), "walk counters", sizeof(shared::ResolveCounters));
+  if (params.options.w == 0) params.options.w = static_cast<int>(pixels());
   size_t met = 0;
   for (int i = 0;; ++i) {
     base::check(i < maxDispatches, "the walk ends");
     bind(params);
-    layer.bind();
-    light.bind(TEXTURE_LAYER_LIGHT);
+    bindInputs();
     counters.clear();
     counters.bindStorage(STORAGE_COUNTERS);
     walk.rays.bindStorage(STORAGE_RAYS);
-    gl::dispatchLinear(program, pixels());
+    gl::dispatchLinear(program, static_cast<size_t>(params.options.w));
     gl::storageBarrier();
     const auto counted = counters.readValue<shared::ResolveCounters>();
     statistics.cutWalks += counted.boundHit;

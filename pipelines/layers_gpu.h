@@ -4,10 +4,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "deepshadow/interlaced_maps_gpu.h"
 #include "deepshadow/maps_gpu.h"
 #include "gl/buffer.h"
 #include "gl/commands.h"
@@ -48,16 +50,24 @@ struct LayerDraw {
 
 // Rays, one a pixel, that are taken from layer to layer and gather what is seen.
 struct Walk {
-  gl::Buffer rays;  // shared::RayState
-  int layers = 0;   // that they were taken to
+  gl::Buffer rays;   // shared::RayState
+  int layers = 0;    // that they were taken to
+  gl::Buffer bends;  // of what is seen through the first surface, where there is refraction
+};
+
+// Which shadows a pipeline has by itself. Where it adds up each light once, interlaced maps need room for
+// that light alone, unless smoke asks for all of them (Aladagli 2015, section 3.2.1).
+struct UsualShadows {
+  ShadowKind kind = ShadowKind::Deep;
+  bool lightsOnce = false;
 };
 
 class LayeredFrame {
  public:
-  // Builds the shadows and the light lists of a frame. `usualShadows`: where the options name none. Throws
+  // Builds the shadows and the light lists of a frame. `usual`: where the options name no shadows. Throws
   // Memory where the image is larger than a texture.
   LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, int width, int height,
-               const Quality& quality, ShadowKind usualShadows = ShadowKind::Deep);
+               const Quality& quality, const UsualShadows& usual = {});
 
   // An empty layer.
   SurfaceLayer layer(const std::string& label, bool numbered = false) const;
@@ -74,6 +84,11 @@ class LayeredFrame {
   // one.
   size_t walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk);
 
+  // Dispatches a program that takes all rays on, or params.options.w of them, until none says that it is
+  // unfinished. How many met a surface.
+  size_t dispatchWalk(const gl::Program& program, shared::ResolveParams params,
+                      const std::function<void()>& bindInputs, Walk& walk);
+
   // What the rays gathered, and the figures of the frame.
   Frame finish(const Walk& walk);
 
@@ -85,6 +100,7 @@ class LayeredFrame {
   ShadowKind shadowKind() const { return shadowKind_; }
   size_t pixels() const;
   gl::ShaderDefines storageDefines() const;
+  gl::ShaderDefines interlaceDefines() const;
   std::array<gl::Format, 3> surfaceFormats() const;
   // Of programs that march or light surfaces.
   gl::ShaderDefines lightingDefines() const;
@@ -92,6 +108,8 @@ class LayeredFrame {
   size_t lightCount() const { return lightLists_->order().size(); }
   const lights::Light& light(size_t number) const;
   shared::ResolveParams params() const;
+  // Before a light is added up: builds its shadow map, where lights have one after the other.
+  void takeTurn(size_t number);
   // View, lights, shadows and smoke, and a pass's parameters.
   void bind(const shared::ResolveParams& params);
   // Draws what a light reaches, with a state whose program starts with shaders/pipelines/light_volume.vert.
@@ -100,6 +118,10 @@ class LayeredFrame {
   FrameStatistics statistics;
 
  private:
+  std::vector<lights::ShadowFaces> buildShadows(bool lightsOnce);
+  // Of lights of the scene.
+  void buildInterlaced(const ShadowInputs& inputs, size_t first, size_t count);
+
   const SceneGpu& scene_;
   FrameView view_;
   Quality quality_;
@@ -107,6 +129,8 @@ class LayeredFrame {
   gl::Buffer viewBlock_;
   gl::Buffer passBlock_;
   std::optional<deepshadow::Maps> shadows_;
+  std::optional<deepshadow::InterlacedMaps> interlaced_;
+  std::optional<ShadowInputs> turns_;  // where a map is built for each light in its turn
   std::optional<lights::LightLists> lightLists_;
 };
 

@@ -3,23 +3,14 @@
 #include <limits>
 #include <utility>
 
-#include "pipelines/layers_gpu.h"
-
 namespace sfumato::pipelines {
 
-PeelingPipeline::PeelingPipeline(gl::Device& device, const scene::Scene& scene,
-                                 std::span<const volumes::Medium> media,
-                                 const volumes::GridOptions& gridOptions)
-    : scene_(device, scene, media, gridOptions) {}
-
-Frame PeelingPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
-                              const FrameOptions& options) {
-  LayeredFrame frame(scene_, camera, width, height, quality);
+Frame peel(LayeredFrame& frame, int mostLayers) {
   const SurfaceLayer opaque = frame.layer("opaque layer");
   frame.draw(opaque, {});
   Walk walk = frame.startWalk();
-  if (scene_.geometry().has(Layer::Translucent)) {
-    const int most = frame.options().layers > 0 ? frame.options().layers : std::numeric_limits<int>::max();
+  if (frame.scene().geometry().has(Layer::Translucent)) {
+    const int most = mostLayers > 0 ? mostLayers : std::numeric_limits<int>::max();
     SurfaceLayer layer = frame.layer("translucent layer", true);
     SurfaceLayer before = frame.layer("translucent layer", true);
     for (int i = 0; i < most; ++i) {
@@ -31,8 +22,19 @@ Frame PeelingPipeline::render(const scene::Camera& camera, int width, int height
     }
   }
   frame.walkTo(opaque, frame.light(opaque), true, walk);
-  options.onTile();
   return frame.finish(walk);
+}
+
+PeelingPipeline::PeelingPipeline(gl::Device& device, const scene::Scene& scene,
+                                 std::span<const volumes::Medium> media,
+                                 const volumes::GridOptions& gridOptions)
+    : scene_(device, scene, media, gridOptions) {}
+
+Frame PeelingPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
+                              const FrameOptions& options) {
+  LayeredFrame frame(scene_, camera, width, height, quality);
+  options.onTile();
+  return peel(frame, quality.deferred.layers);
 }
 
 }  // namespace sfumato::pipelines

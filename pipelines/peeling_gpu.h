@@ -3,8 +3,8 @@
 // nothing is left, or as many as are asked for. Without that limit it is exact.
 #pragma once
 
+#include "pipelines/layers_gpu.h"
 #include "pipelines/pipeline_gpu.h"
-#include "pipelines/scene_gpu.h"
 
 namespace sfumato::pipelines {
 
@@ -21,5 +21,8 @@ class PeelingPipeline : public Pipeline {
  private:
   SceneGpu scene_;
 };
+
+// The picture of at most so many translucent layers before the opaque one; 0: of all.
+Frame peel(LayeredFrame& frame, int mostLayers);
 
 }  // namespace sfumato::pipelines

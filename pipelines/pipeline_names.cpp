@@ -9,7 +9,8 @@
 namespace sfumato::pipelines {
 
 const std::vector<std::string>& pipelineNames() {
-  static const std::vector<std::string> names = {"lund", "peeling", "reentrant", "stencil-routed"};
+  static const std::vector<std::string> names = {"lund",         "interlaced", "peeling",       "forward",
+                                                 "forward-mask", "reentrant",  "stencil-routed"};
   return names;
 }
 

@@ -8,8 +8,13 @@
 
 #ifdef ROUTED
 #define LayerPlace ivec4  // x, y, layer, sample
+#if ROUTED_SAMPLES > 1
 #define layerSampler sampler2DMSArray
 #define layerUsampler usampler2DMSArray
+#else
+#define layerSampler sampler2DArray
+#define layerUsampler usampler2DArray
+#endif
 #define layerTexel(image, place) texelFetch(image, place.xyz, place.w)
 #else
 #define LayerPlace ivec2
@@ -91,4 +96,16 @@ bool isTranslucent(PackedSurface surface) {
 // Of what is behind, per channel; nothing behind a surface that is opaque.
 vec3 layerPass(PackedSurface surface) {
   return isTranslucent(surface) ? surfacePass(surface) : vec3(0.0);
+}
+
+bool isTranslucentAt(LayerPlace place) {
+  return isTranslucent(layerSurface(place));
+}
+
+vec3 passAt(LayerPlace place) {
+  return surfacePass(layerSurface(place));
+}
+
+vec3 normalAt(LayerPlace place) {
+  return unpackSurface(layerSurface(place)).normal;
 }

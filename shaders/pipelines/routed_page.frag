@@ -6,7 +6,11 @@
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ResolveParams params;
 };
+#if ROUTED_SAMPLES > 1
 layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DMSArray keys;
+#else
+layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DArray keys;
+#endif
 layout(location = 0) out uint last;
 
 void main() {

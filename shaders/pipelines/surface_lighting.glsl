@@ -1,5 +1,6 @@
 // Light on surfaces.
-#include "shaders/deepshadow/lookup.glsl"
+#include "shaders/deepshadow/shadows.glsl"
+#include "shaders/pipelines/ambient.glsl"
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/pixel_ray.glsl"
 
@@ -23,10 +24,13 @@ vec3 reflectedFrom(uint number, Surface surface, vec3 p, vec3 toViewer) {
   return maxComponent(received) > 0.0 ? brdf(surface, toLight, toViewer) * received : vec3(0.0);
 }
 
-// Emitted and reflected radiance towards the viewer, lit by every light that reaches it.
-vec3 shadeSurface(Surface surface, PixelRay ray, float depth) {
+// Emitted and reflected radiance towards the viewer, lit by every light that reaches it and by so much of the ambient one.
+vec3 shadeSurface(Surface surface, PixelRay ray, float depth, float accessibility) {
   vec3 p = ray.origin + depth * ray.perDepth;
   vec3 sum = surface.emissive;
+#ifdef AMBIENT
+  sum += ambientFrom(surface, params.ambient.rgb, accessibility);
+#endif
   bool reached = true;
   uint walked = 0u;
   while (reached && walked < min(lightsOf(ray), LIGHT_WALK_LIMIT)) {

@@ -2,11 +2,8 @@
 #include "shaders/scene/pass_through.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/geometry.h"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std430, binding = STORAGE_DRAWS) readonly buffer Draws {
   DrawData draws[];
 };

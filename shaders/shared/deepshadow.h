@@ -7,7 +7,7 @@ SHARED_BEGIN
 struct ShadowFace {
   mat4 faceFromWorld;  // view space of the face; depth is along -Z
   vec4 projection;     // texel = xy * scale + offset; xy is divided by depth first when perspective
-  ivec4 texels;        // x: number of its first texel, y: side, z: 1 for perspective
+  ivec4 texels;        // x: number of its first texel, y: side, z: 1 for perspective; w: of interlaced maps, first column
 };
 
 // The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots.
@@ -40,6 +40,11 @@ struct ShadowPassParams {
   ivec4 cells;  // of the face, that knots are written of: x: the first, y: how many, z, w: place of the first in the
                 // runs and in the texels
   ivec4 units;  // x: number of the pool's first that is written; y: SHADOW_*: which cells
+};
+
+// Of the pass that draws an interlaced map.
+struct InterlacedPassParams {
+  vec4 lightColour;  // rgb, its largest channel 1
 };
 
 struct ShadowCounters {

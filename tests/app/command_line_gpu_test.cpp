@@ -517,6 +517,45 @@ TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
               "--shadow-memory");
 }
 
+TEST_F(CommandLineRender, ShapesPicturesAndKeepsRadiance) {
+  render({"scene.gltf", "-o", "plain.exr", "-o", "plain.png"});
+  const image::Image radiance = picture("plain.exr"), plain = picture("plain.png");
+  struct Row {
+    Arguments flags;
+    std::string setting;  // that the picture says
+  };
+  for (const auto& [flags, setting] :
+       {Row{{"--tonemap", "reinhard"}, "log_average_luminance"},
+        Row{{"--bloom", "separable"}, "separable, strength 0.2"},
+        Row{{"--bloom", "mipmap", "--bloom-strength", "9"}, "mipmap, strength 9"},
+        Row{{"--aa", "edges"}, "anti_aliasing"},
+        Row{{"--tonemap", "reinhard", "--white", "2"}, "white_luminance"}}) {
+    SCOPED_TRACE(setting);
+    for (const bool reference : {false, true}) {
+      Arguments arguments = {"scene.gltf", "-o", "out.exr", "-o", "out.png", "--stats", "out.json"};
+      arguments.insert(arguments.end(), flags.begin(), flags.end());
+      if (reference) arguments.push_back("--reference");
+      render(arguments);
+      if (!reference) {
+        EXPECT_EQ(picture("out.exr").values, radiance.values);
+      }
+      EXPECT_THROW(image::readLayer(path("out.exr"), "depth"), base::Error);
+      EXPECT_GT(image::compare(picture("out.png"), plain).relativeRmse, 1e-3);
+      EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos);
+    }
+  }
+}
+
+TEST_F(CommandLineRender, TimesPostProcessing) {
+  render({"scene.gltf", "-o", "out.png", "--bloom", "mipmap", "--aa", "edges", "--stats", "out.json"});
+  const Json figures = Json::parse(contentOf(path("out.json")));
+  std::set<std::string> passes;
+  for (const Json& pass : figures["frame"]["passes"]) passes.insert(pass["pass"]);
+  for (const char* pass : {"post-processing", "post-processing/bloom", "post-processing/edges"})
+    EXPECT_TRUE(passes.contains(pass)) << pass;
+  EXPECT_EQ(figures["memory"]["peak_bytes_by_label"]["post-processed picture"], 2 * 64 * 48 * 16);
+}
+
 TEST_F(CommandLineRender, WritesFigures) {
   render({"scene.gltf", "-o", "out.png", "--stats", "out.json", "--repeat", "2"});
   const Json figures = Json::parse(contentOf(path("out.json")));

@@ -1,0 +1,49 @@
+#include "pipelines/ambient_occlusion.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "scene/bounds.h"
+#include "scene/visible_hull.h"
+
+namespace sfumato::pipelines {
+
+int pixelsAside(OcclusionSize size) {
+  switch (size) {
+    case OcclusionSize::Half:
+      return 2;
+    case OcclusionSize::Quarter:
+      return 4;
+    default:
+      return 1;
+  }
+}
+
+int blurReach(OcclusionSize size) {
+  return size == OcclusionSize::Quarter ? 10 : 30;
+}
+
+const std::vector<std::string>& occlusionSizeNames() {
+  static const std::vector<std::string> names = {"off", "full", "half", "quarter"};
+  return names;
+}
+
+const std::string& nameOf(OcclusionSize size) {
+  return occlusionSizeNames()[static_cast<size_t>(size)];
+}
+
+OcclusionSize occlusionSizeNamed(const std::string& name) {
+  const auto& names = occlusionSizeNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    base::fail(base::ExitCode::Usage, "--ssao {}: unknown: choose off, full, half or quarter", name);
+  return static_cast<OcclusionSize>(found - names.begin());
+}
+
+double usualOcclusionRadius(const scene::Scene& scene) {
+  constexpr double partOfDiagonal = 0.05;
+  const scene::Bounds bounds = scene::boundsOf(scene::boundingPoints(scene, {}));
+  return !bounds.empty() && bounds.radius() > 0 ? partOfDiagonal * 2 * bounds.radius() : 1;
+}
+
+}  // namespace sfumato::pipelines
