@@ -2,9 +2,11 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
+#include "app/effects.h"
 #include "app/validators.h"
 #include "base/version.h"
 #include "image/tone_map.h"
@@ -328,28 +330,54 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->group("Output");
 }
 
+constexpr const char* pictures = "Pictures (.png; an .exr keeps linear radiance)";
+
 void addDisplay(CLI::App& command, DisplayOptions& options) {
   const auto add = [&](const char* name, auto& value, const char* help) {
-    return command.add_option(name, value, help)->group("Pictures (.png; an .exr keeps linear radiance)");
+    return command.add_option(name, value, help)->group(pictures);
   };
   add("--exposure", options.exposureStops, "Brighten them: -30 to 30, else 0")
       ->type_name("STOPS")
       ->check(between(-30.0, 30.0));
   add("--tonemap", options.toneCurve, "neutral (Khronos), reinhard (by log-average luminance); else neutral")
       ->type_name("NAME")
-      ->check(oneOf(image::toneCurveNames()));
+      ->check(oneOf(image::toneCurves().names));
   add("--white", options.white, "What reinhard shows white: 1e-6 to 1e9, else the brightest there")
       ->type_name("LUMINANCE")
       ->check(between(1e-6, 1e9));
   add("--bloom", options.bloom, "Let bright parts glow: separable, mipmap or off; else off")
       ->type_name("NAME")
-      ->check(oneOf(pipelines::bloomNames()));
+      ->check(oneOf(pipelines::blooms().names));
   add("--bloom-strength", options.bloomStrength, "Part of their light that glows: 0 to 10, else 0.2")
       ->type_name("PART")
       ->check(between(0.0, 10.0));
   add("--aa", options.antiAliasing, "edges: blur across the edges of opaque surfaces; else off")
       ->type_name("NAME")
-      ->check(oneOf(pipelines::antiAliasingNames()));
+      ->check(oneOf(pipelines::antiAliasings().names));
+}
+
+// What a preset sets, unless a flag did.
+void applyEffects(const CLI::App& command, RenderOptions& options) {
+  const auto effects = std::ranges::find(allEffects(), options.effects, &Effects::name);
+  if (effects == allEffects().end()) return;
+  const auto isFree = [&](const char* flag) { return command.count(flag) == 0; };
+  if (isFree("--tonemap")) options.display.toneCurve = "reinhard";
+  if (isFree("--bloom")) options.display.bloom = "mipmap";
+  if (isFree("--aa")) options.display.antiAliasing = "edges";
+  if (isFree("--ssao")) options.ambientOcclusion = effects->ambientOcclusion;
+  if (isFree("--shadow-res") && isFree("--quality")) options.mostShadowResolution = effects->shadowResolution;
+  options.routedSamples = effects->routedSamples;
+}
+
+void addEffects(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option("--effects", options.effects,
+                  "low, medium or high: reinhard, mipmap, edges, --ssao and shadow maps to suit; flags win")
+      ->type_name("NAME")
+      ->check(oneOf(effectsNames()))
+      ->excludes("--reference")
+      ->group(pictures);
+  command.parse_complete_callback([&command, &options] { applyEffects(command, options); });
 }
 
 void addTolerance(CLI::App& command, const std::string& what, Tolerance& tolerance) {
@@ -568,6 +596,7 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addAmbient(command, options);
   addOutput(command, options);
   addDisplay(command, options.display);
+  addEffects(command, options);
   addDevice(command, options.device);
   addFlags(command, verbosity);
   return command;

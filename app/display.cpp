@@ -32,13 +32,14 @@ pipelines::PostOptions wantedPostProcessing(const RenderOptions& options) {
     fail(ExitCode::Usage, "--white: is of a curve that was not asked for: add --tonemap reinhard");
   if (display.bloomStrength && display.bloom == "off")
     fail(ExitCode::Usage, "--bloom-strength: of no bloom: add --bloom mipmap or separable");
-  const char* flag = firstFlag(display);
+  const char* flag = options.effects.empty() ? firstFlag(display) : nullptr;
   const bool hasPicture =
       std::any_of(options.outputs.begin(), options.outputs.end(), std::not_fn(image::holdsLayers));
   if (flag && !hasPicture && !options.dryRun)
     fail(ExitCode::Usage, "{}: shapes a .png only, an .exr keeps linear radiance: name a .png with -o", flag);
-  pipelines::PostOptions post{.bloom = pipelines::bloomNamed(display.bloom),
-                              .antiAliasing = pipelines::antiAliasingNamed(display.antiAliasing)};
+  if (!hasPicture) return {};
+  pipelines::PostOptions post{.bloom = pipelines::blooms().named(display.bloom),
+                              .antiAliasing = pipelines::antiAliasings().named(display.antiAliasing)};
   post.bloomStrength = display.bloomStrength.value_or(post.bloomStrength);
   return post;
 }
@@ -49,7 +50,7 @@ void measureBrightness(const RenderOptions& options, const Shot& shot, Drawn& dr
 }
 
 image::ToneMapping toneMappingOf(const DisplayOptions& options, const image::Brightness& brightness) {
-  if (image::toneCurveNamed(options.toneCurve) == image::ToneCurve::Reinhard)
+  if (image::toneCurves().named(options.toneCurve) == image::ToneCurve::Reinhard)
     return image::reinhard(brightness, options.exposureStops, options.white);
   return {.scale = std::exp2(options.exposureStops)};
 }

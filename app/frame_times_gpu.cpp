@@ -4,15 +4,11 @@
 
 namespace sfumato::app {
 
-TimedFrames timeFrames(pipelines::Pipeline& pipeline, const scene::Camera& camera, int width, int height,
-                       const pipelines::Quality& quality, int repeat) {
-  TimedFrames frames{pipeline.render(camera, width, height, quality)};
-  for (int i = 0; i < repeat; ++i) {
-    const Clock::time_point start = Clock::now();
-    frames.last = pipeline.render(camera, width, height, quality);
-    frames.milliseconds.push_back(1000 * secondsSince(start));
-  }
-  return frames;
+TimedFrame timeFrame(pipelines::Pipeline& pipeline, const scene::Camera& camera, int width, int height,
+                     const pipelines::Quality& quality) {
+  const Clock::time_point start = Clock::now();
+  pipelines::Frame frame = pipeline.render(camera, width, height, quality);
+  return {std::move(frame), 1000 * secondsSince(start)};
 }
 
 }  // namespace sfumato::app

@@ -1,19 +1,16 @@
 // How long a pipeline takes for a frame.
 #pragma once
 
-#include <vector>
-
 #include "pipelines/pipeline_gpu.h"
 
 namespace sfumato::app {
 
-struct TimedFrames {
-  pipelines::Frame last;
-  std::vector<double> milliseconds;
+struct TimedFrame {
+  pipelines::Frame frame;
+  double milliseconds = 0;  // until its image is here
 };
 
-// Draws a frame that compiles what is needed, then `repeat` that are timed, each until its image is here.
-TimedFrames timeFrames(pipelines::Pipeline& pipeline, const scene::Camera& camera, int width, int height,
-                       const pipelines::Quality& quality, int repeat);
+TimedFrame timeFrame(pipelines::Pipeline& pipeline, const scene::Camera& camera, int width, int height,
+                     const pipelines::Quality& quality);
 
 }  // namespace sfumato::app

@@ -74,6 +74,9 @@ struct RenderOptions {
   bool reference = false;                        // drawn by the CPU reference
   int samples = 1;                               // a side of the pixel, of the reference
   DisplayOptions display;
+  std::string effects;                                           // a preset (app/effects.h), empty: none
+  std::optional<int> mostShadowResolution;                       // of that
+  int routedSamples = 0;                                         // likewise: see pipelines::DeferredOptions
   std::vector<std::string> aovs;                                 // see pipelines/aovs.h
   std::string deep;                                              // .exr, empty: none
   std::vector<std::pair<std::string, std::string>> deepShadows;  // a light's name or number, and an .exr

@@ -12,8 +12,7 @@ namespace sfumato::app {
 
 enum class PaperScene { Hall, Court, Statue, House };  // scene/generated_scenes.h
 
-// One measurement of ours. Its fields say all that it depends on, so that equal ones are measured once; those
-// of one scene stand together in order.
+// One measurement of ours. Its fields say all that it depends on, so that equal ones are measured once.
 struct PaperSetting {
   PaperScene scene = PaperScene::Hall;
   size_t opaque = 0;  // triangles of the scene

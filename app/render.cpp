@@ -154,6 +154,7 @@ pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
   deferred.storage = pipelines::storages().named(options.storage);
   deferred.passes = pipelines::passesNames().named(options.passes);
   deferred.layers = options.layers;
+  deferred.samples = options.routedSamples;
   deferred.refraction = options.refraction;
   return deferred;
 }
@@ -163,7 +164,8 @@ pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.shadowResolution =
+      options.shadowResolution.value_or(options.mostShadowResolution.value_or(quality.shadowResolution));
   quality.exactShadowResolution = options.shadowResolution.has_value();
   quality.shadowError = options.shadowError.value_or(quality.shadowError);
   quality.exactShadowError = options.shadowError.has_value();

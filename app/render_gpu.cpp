@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "base/size_text.h"
 #include "gl/device.h"
+#include "pipelines/aovs_gpu.h"
 #include "pipelines/list_prediction.h"
 #include "pipelines/pipeline_gpu.h"
 
@@ -78,6 +79,10 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   base::note("start-up: {:.2f} s", times.startupSeconds);
 
   pipelines::Frame frame = drawFrames(device, *pipeline, shot, options, times.frameSeconds);
+  if (frame.aovs.empty() && !shot.aovsToDraw().empty()) {  // a pipeline that tells none by itself
+    frame.aovs = pipelines::emptyImages(shot.aovsToDraw(), options.width, options.height);
+    pipelines::drawSurfaceAovs(pipeline->scene(), shot.camera, frame.aovs);
+  }
   Drawn drawn{std::move(frame.radiance), std::move(frame.aovs), std::move(frame.deep),
               std::move(frame.deepShadows), device.names().renderer};
   postProcess(device, options, shot, drawn);

@@ -32,14 +32,17 @@ glm::vec3 colourOf(const lights::Light& light) {
   return brightest > 0 ? light.intensity / brightest : glm::dvec3(0);
 }
 
-// All faces of a light stand in one column of the textures, each in whole pairs of lines.
-int mostTexels(const gl::Device& device, const lights::Light& light) {
-  const int side = std::min(device.limits().texture2dSize, device.limits().framebufferSize);
-  const bool cube = light.type != lights::LightType::Directional && !scene::isNarrowSpot(light);
-  return cube ? side / 6 * 2 : side;
+int mostLines(const gl::Device& device) {
+  return std::min(device.limits().texture2dSize, device.limits().framebufferSize);
 }
 
 }  // namespace
+
+gl::ShaderDefines lookupDefines(InterlacedKind kind) {
+  gl::ShaderDefines defines = {{"INTERLACED_SHADOWS", "1"}};
+  if (kind == InterlacedKind::Opaque) defines.emplace_back("PLAIN_SHADOWS", "1");
+  return defines;
+}
 
 void InterlacedMaps::build(gl::Device& device, const InterlacedInputs& inputs) {
   const ivec2 size = arrange(device, inputs);
@@ -61,18 +64,18 @@ ivec2 InterlacedMaps::arrange(const gl::Device& device, const InterlacedInputs& 
   lights_.clear();
   faces_.clear();
   lightColours_.clear();
-  const int mostLines = std::min(device.limits().texture2dSize, device.limits().framebufferSize);
   ivec2 size(0);
   ivec2 corner(0);  // of the next face
   for (size_t i = 0; i < inputs.lights.size(); ++i) {
     const lights::Light& light = inputs.lights[i];
     LightMap& map = lights_.emplace_back();
     if (!light.castsShadow || inputs.resolutions[i] == 0) continue;
-    map.resolution = std::min(inputs.resolutions[i], mostTexels(device, light));
+    map.faces = scene::faceCount(light);
+    const int mostTexels = map.faces == 1 ? mostLines(device) : mostLines(device) / map.faces * 2;
+    map.resolution = std::min(inputs.resolutions[i], mostTexels);
     const auto faces = scene::facesOf(light, map.resolution, inputs.receivers, inputs.castingPoints);
     map.firstFace = static_cast<int>(faces_.size());
-    map.faces = static_cast<int>(faces.size());
-    if (corner.y + map.faces * faces.front().side > mostLines) corner = {size.x, 0};
+    if (corner.y + map.faces * faces.front().side > mostLines(device)) corner = {size.x, 0};
     for (const FaceProjection& face : faces) {
       faces_.push_back({face, corner});
       lightColours_.push_back(colourOf(light));

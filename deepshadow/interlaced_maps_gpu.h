@@ -34,6 +34,9 @@ enum class InterlacedKind {
   Opaque,
 };
 
+// Of programs that look up maps of that kind through shaders/deepshadow/shadows.glsl.
+gl::ShaderDefines lookupDefines(InterlacedKind kind);
+
 struct InterlacedInputs {
   std::span<const lights::Light> lights;  // one, or all that one pass asks for
   std::span<const int> resolutions;  // of each light: texels a side, a face of a cube has half; 0: no map
@@ -64,8 +67,7 @@ class InterlacedMaps {
 
   const std::vector<LightMap>& lights() const { return lights_; }  // in the order of the inputs
   size_t bytes() const;                                            // of all textures
-  // For shaders that include shaders/deepshadow/interlaced_lookup.glsl, or shadows.glsl with
-  // INTERLACED_SHADOWS.
+  // For shaders that include shaders/deepshadow/shadows.glsl, with the defines of the kind of the maps.
   void bind() const;
   ReadFace read(size_t face) const;
 

@@ -537,8 +537,8 @@ void makeCourtyard(const fs::path& folder) {
   gltf.addShape("glass", ball({-0.1f, 0.22f, 0.75f}, 0.22f),
                 gltf.addMaterial({.name = "glass", .colour = {0.6f, 0.85f, 0.8f}, .transmission = 1}));
   gltf.setAmbient({0.5f, 0.55f, 0.62f});
-  addSun(gltf, 0.8f, {-2.4f, 3.2f, 2.2f});
-  gltf.addCamera("camera", 0.6f, lookingAt({0.4f, 1.9f, 5}, {0.15f, 0.75f, -0.4f}));
+  addSun(gltf, 1.1f, {-2.4f, 3.2f, 2.2f});
+  gltf.addCamera("camera", 0.6f, lookingAt({0.9f, 1.7f, 3.6f}, {0.3f, 0.55f, -0.5f}));
   gltf.write(folder / "courtyard.gltf");
 }
 

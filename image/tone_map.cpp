@@ -90,17 +90,9 @@ constexpr double negligible = 1e-4;  // part of the mean luminance
 
 }  // namespace
 
-const std::vector<std::string>& toneCurveNames() {
-  static const std::vector<std::string> names = {"neutral", "reinhard"};
-  return names;
-}
-
-ToneCurve toneCurveNamed(const std::string& name) {
-  const auto& names = toneCurveNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    base::fail(base::ExitCode::Usage, "--tonemap {}: unknown: choose neutral or reinhard", name);
-  return static_cast<ToneCurve>(found - names.begin());
+const base::Choice<ToneCurve>& toneCurves() {
+  static const base::Choice<ToneCurve> choice{"--tonemap", {"neutral", "reinhard"}};
+  return choice;
 }
 
 Brightness brightnessOf(const Image& linear) {

@@ -3,9 +3,8 @@
 
 #include <limits>
 #include <optional>
-#include <string>
-#include <vector>
 
+#include "base/choice.h"
 #include "image/image.h"
 
 namespace sfumato::image {
@@ -15,9 +14,7 @@ namespace sfumato::image {
 // for digital images", section 3.1), on luminance; a colour that the screen has not at its luminance moves
 // towards grey.
 enum class ToneCurve { Neutral, Reinhard };
-const std::vector<std::string>& toneCurveNames();  // "neutral", "reinhard"
-// Throws Usage, naming --tonemap, for another name.
-ToneCurve toneCurveNamed(const std::string& name);
+const base::Choice<ToneCurve>& toneCurves();  // "neutral", "reinhard"
 
 struct ToneMapping {
   ToneCurve curve = ToneCurve::Neutral;

@@ -1,9 +1,9 @@
 #include "pipelines/ambient_occlusion.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "base/error.h"
-#include "scene/bounds.h"
 #include "scene/visible_hull.h"
 
 namespace sfumato::pipelines {
@@ -41,9 +41,13 @@ OcclusionSize occlusionSizeNamed(const std::string& name) {
 }
 
 double usualOcclusionRadius(const scene::Scene& scene) {
-  constexpr double partOfDiagonal = 0.05;
-  const scene::Bounds bounds = scene::boundsOf(scene::boundingPoints(scene, {}));
-  return !bounds.empty() && bounds.radius() > 0 ? partOfDiagonal * 2 * bounds.radius() : 1;
+  std::vector<double> diagonals;
+  for (const glm::dmat4& worldFromUnit : scene::boundingBoxes(scene))
+    diagonals.push_back(glm::length(glm::dvec3(worldFromUnit * glm::dvec4(1, 1, 1, 0))));
+  if (diagonals.empty()) return 1;
+  const auto middle = diagonals.begin() + static_cast<std::ptrdiff_t>(diagonals.size() / 2);
+  std::nth_element(diagonals.begin(), middle, diagonals.end());
+  return *middle > 0 ? 0.1 * *middle : 1;
 }
 
 }  // namespace sfumato::pipelines

@@ -26,7 +26,8 @@ const std::string& nameOf(OcclusionSize size);
 // Throws Usage, naming --ssao, for another name.
 OcclusionSize occlusionSizeNamed(const std::string& name);
 
-// A radius that suits a scene: a part of the diagonal of what its surfaces take; 1 where there are none.
+// A radius that suits a scene: a tenth of the diagonal of its middle-sized instance, so that a wide floor
+// counts no more than what stands on it; 1 where there is none.
 double usualOcclusionRadius(const scene::Scene& scene);
 
 }  // namespace sfumato::pipelines

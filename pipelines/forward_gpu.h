@@ -21,6 +21,7 @@ class ForwardPipeline : public Pipeline {
   // of the ray. Throws Usage for Interlace::Full.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
+  const SceneGpu& scene() const override { return scene_; }
 
  private:
   Refraction refraction_;

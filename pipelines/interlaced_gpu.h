@@ -21,6 +21,7 @@ class InterlacedPipeline : public Pipeline {
   // Bytes a pixel: one layer and its light (pipelines/layers_gpu.h) and 32 of its ray.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
+  const SceneGpu& scene() const override { return scene_; }
 
  private:
   SceneGpu scene_;

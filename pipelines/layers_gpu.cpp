@@ -123,10 +123,11 @@ gl::ShaderDefines LayeredFrame::storageDefines() const {
 }
 
 gl::ShaderDefines LayeredFrame::lightingDefines() const {
-  gl::ShaderDefines defines =
-      gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines());
-  if (interlaced_) defines.emplace_back("INTERLACED_SHADOWS", "1");
-  return defines;
+  const gl::ShaderDefines shadows =
+      interlaced_ ? deepshadow::lookupDefines(interlacedKind(shadowKind_, options().storage))
+                  : gl::ShaderDefines{};
+  return gl::joined(gl::joined(scene_.lightingDefines(quality_.scatteringOctaves), storageDefines()),
+                    shadows);
 }
 
 gl::ShaderDefines LayeredFrame::interlaceDefines() const {
@@ -336,6 +337,7 @@ Frame LayeredFrame::finish(const Walk& walk) {
     statistics.shadowMaps = figuresOf(*shadows_);
     statistics.cutWalks += shadows_->cutMarches();
   }
+  if (interlaced_) statistics.shadowMaps.bytes = interlaced_->bytes();
   frame.statistics = statistics;
   return frame;
 }

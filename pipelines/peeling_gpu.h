@@ -17,6 +17,7 @@ class PeelingPipeline : public Pipeline {
   // layers.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
+  const SceneGpu& scene() const override { return scene_; }
 
  private:
   SceneGpu scene_;

@@ -1,9 +1,7 @@
 // What becomes of a frame before it is shown, whoever drew it.
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "base/choice.h"
 #include "pipelines/aovs.h"
 
 namespace sfumato::pipelines {
@@ -14,17 +12,13 @@ enum class Bloom {
   Separable,  // of a picture of about 180 rows, bright parts by contrast (Policarpo and Fonseca 2005, 3.5.2)
   Mipmap  // of ever smaller pictures, of what is brighter than the log-average luminance (Ferko 2012, 3.2)
 };
-const std::vector<std::string>& bloomNames();  // "off", "separable", "mipmap"
-// Throws Usage, naming --bloom, for another name.
-Bloom bloomNamed(const std::string& name);
-
 enum class AntiAliasing {
   Off,
   Edges  // of opaque surfaces, told by their normals and depths (Policarpo and Fonseca 2005, 3.5.1)
 };
-const std::vector<std::string>& antiAliasingNames();  // "off", "edges"
-// Throws Usage, naming --aa, for another name.
-AntiAliasing antiAliasingNamed(const std::string& name);
+
+const base::Choice<Bloom>& blooms();                // "off", "separable", "mipmap"
+const base::Choice<AntiAliasing>& antiAliasings();  // "off", "edges"
 
 struct PostOptions {
   Bloom bloom = Bloom::Off;

@@ -177,7 +177,7 @@ SurfacePoint archOver(const dvec3& left, const dvec3& right, double thickness) {
   };
 }
 
-// Six lamps without shadows about a place, and a sun with them.
+// Six lamps without shadows about a place, a sun with them, and a little light from everywhere.
 void addLampsAndSun(Scene& scene, const dvec3& centre, const dvec3& reach, double intensity,
                     const dvec3& towardsSun) {
   base::Random random(5);
@@ -188,6 +188,7 @@ void addLampsAndSun(Scene& scene, const dvec3& centre, const dvec3& reach, doubl
     scene.lights.back().castsShadow = false;
   }
   scene.lights.push_back(directional(towardsSun, {2.6, 2.4, 2.1}));
+  scene.ambient = {0.1, 0.12, 0.15};
 }
 
 // Moves the camera back or forth so that what fits a picture of 16 to 9 fits every other.

@@ -36,7 +36,7 @@ constexpr int mostHallLights = 64;
 
 // After Ferko 2012, section 7: a court with two storeys of arcades, hung with panes of coloured glass; a
 // statue that is a knot; a house in its garden, with a glass porch. Six point lights that cast no shadows,
-// and a directional one that does. Throws Bug for fewer than 4,000 opaque triangles.
+// and a directional one that does, and ambient light. Throws Bug for fewer than 4,000 opaque triangles.
 GeneratedScene courtScene(const TriangleCounts& triangles, double aspect);
 GeneratedScene statueScene(const TriangleCounts& triangles, double aspect);
 GeneratedScene houseScene(const TriangleCounts& triangles, double aspect);

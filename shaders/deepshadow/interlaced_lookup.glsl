@@ -6,6 +6,13 @@
 layout(binding = TEXTURE_SHADOW_TEXELS) uniform sampler2D shadowDepths;  // below 0: of a translucent surface
 layout(binding = TEXTURE_SHADOW_KNOTS) uniform sampler2D shadowFilters;  // what that lets through; alpha takes of it
 
+// Maps of depths alone have no lines to tell apart.
+#ifdef PLAIN_SHADOWS
+const bool INTERLACED = false;
+#else
+const bool INTERLACED = true;
+#endif
+
 // Where a texel of a face stands in the textures. Lines beyond an edge are those before it, so that odd ones stay odd.
 ivec2 placeOf(ShadowFace face, ivec2 texel) {
   int last = face.texels.y - 1;
@@ -64,11 +71,14 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   vec3 sum = vec3(0.0);
   for (int x = 0; x < side; ++x) {
     ivec2 at = taps.first + ivec2(x, 0);
-    Told below = toldInSmoke(face, at - ivec2(0, 1), depth);
     Told own = toldInSmoke(face, at, depth);
+    Told below = own;
+    if (INTERLACED) below = toldInSmoke(face, at - ivec2(0, 1), depth);
+    Told above = below;
     for (int y = 0; y < side; ++y) {
-      Told above = toldInSmoke(face, at + ivec2(0, y + 1), depth);
-      Told told = deinterlaced(below, own, above, ((at.y + y) & 1) != 0, sharesOfLines(side));
+      if (y + 1 < side || (INTERLACED && side > 1)) above = toldInSmoke(face, at + ivec2(0, y + 1), depth);
+      Told told = own;
+      if (INTERLACED) told = deinterlaced(below, own, above, ((at.y + y) & 1) != 0, sharesOfLines(side));
       sum += taps.x[x] * taps.y[y] * told.lit * told.passing;
       below = own;
       own = above;
@@ -152,11 +162,14 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
   vec3 doubtful = vec3(0.0);
   for (int x = 0; x < side; ++x) {
     ivec2 at = taps.first + ivec2(x, 0);
-    Told below = toldOnSurface(face, receiver, at - ivec2(0, 1));
     Told own = toldOnSurface(face, receiver, at);
+    Told below = own;
+    if (INTERLACED) below = toldOnSurface(face, receiver, at - ivec2(0, 1));
+    Told above = below;
     for (int y = 0; y < side; ++y) {
-      Told above = toldOnSurface(face, receiver, at + ivec2(0, y + 1));
-      Told told = deinterlaced(below, own, above, ((at.y + y) & 1) != 0, sharesOfLines(side));
+      if (y + 1 < side || (INTERLACED && side > 1)) above = toldOnSurface(face, receiver, at + ivec2(0, y + 1));
+      Told told = own;
+      if (INTERLACED) told = deinterlaced(below, own, above, ((at.y + y) & 1) != 0, sharesOfLines(side));
       float share = taps.x[x] * taps.y[y];
       sum += share * told.lit * told.passing;
       weight += share * told.weight;

@@ -28,6 +28,13 @@ vec4 atResult(ivec2 result) {
   return vec4(placeOf(view, vec2(pixel) + 0.5, texel.depth), texel.occlusion);
 }
 
+// Results to each side that can be near enough to count.
+int stepsWithin(vec3 p, float metres) {
+  float spacing = 2.0 * view.halfExtent.y / float(view.size.y) * float(params.size.z);
+  if (view.halfExtent.z == 0.0) spacing *= p.z * p.z / length(p);  // of the rays, as p is away from them
+  return int(min(ceil(metres / spacing), float(params.size.w)));
+}
+
 void main() {
   int reach = params.size.w;
   int number = int(gl_LocalInvocationID.x);
@@ -47,7 +54,8 @@ void main() {
     vec3 normal = normalInView(view, middle.normal);
     float sum = 0.0;
     float weights = 0.0;
-    for (int i = -reach; i <= reach; ++i) {
+    int steps = stepsWithin(p, params.distances.x * params.distances.z);
+    for (int i = -steps; i <= steps; ++i) {
       vec4 other = line[number + reach + i];
       vec3 apart = (other.xyz - p) / params.distances.x;
       float near = max(1.0 - dot(apart, apart) / (params.distances.z * params.distances.z), 0.0);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "image/image_file.h"
 #include "image/metrics.h"
+#include "pipelines/pipeline_names.h"
 #include "tests/app/program.h"
 #include "tests/gl/test_device.h"
 #include "volumes/vdb_file.h"
@@ -544,6 +545,48 @@ TEST_F(CommandLineRender, ShapesPicturesAndKeepsRadiance) {
       EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos);
     }
   }
+}
+
+TEST_F(CommandLineRender, ShapesPicturesOfEveryPipeline) {
+  for (const std::string& pipeline : pipelines::pipelineNames()) {
+    SCOPED_TRACE(pipeline);
+    render({"scene.gltf", "--pipeline", pipeline, "-o", "plain.exr", "-o", "plain.png"});
+    render({"scene.gltf", "--pipeline", pipeline, "-o", "out.exr", "-o", "out.png", "--aa", "edges"});
+    EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
+    EXPECT_GT(image::compare(picture("out.png"), picture("plain.png")).relativeRmse, 1e-2);
+  }
+}
+
+TEST_F(CommandLineGpu, PresetsGiveWayToFlags) {
+  const auto plan = [&](const Arguments& flags) {
+    Arguments arguments = {"render", "scene.gltf", "-n", "-q"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Outcome outcome = run(arguments, noEgl);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_NE(plan({"--effects", "low"}).find("shadow maps 512 texels"), std::string::npos);
+  EXPECT_NE(plan({"--effects", "high"}).find("shadow maps 2048 texels"), std::string::npos);
+  EXPECT_NE(plan({"--effects", "high", "--shadow-res", "256"}).find("shadow maps 256 texels"),
+            std::string::npos);
+  EXPECT_NE(plan({"--quality", "draft", "--effects", "high"}).find("shadow maps 512 texels"),
+            std::string::npos);
+  expectError(run({"render", "scene.gltf", "-n", "--effects", "low", "--reference"}), 2, "--effects");
+  expectError(run({"render", "scene.gltf", "-n", "--effects", "ultra"}), 2, "is none of low, medium, high");
+}
+
+TEST_F(CommandLineRender, PresetsSetEveryEffect) {
+  render({"scene.gltf", "--ambient", "0.1", "-o", "out.png", "--effects", "low"});
+  for (const char* setting : {"tone_map", "reinhard", "mipmap, strength 0.2", "edges", "quarter, radius"})
+    EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos) << setting;
+  render({"scene.gltf", "--ambient", "0.1", "-o", "out.png", "--effects", "low", "--bloom", "separable",
+          "--ssao", "off"});
+  EXPECT_NE(contentOf(path("out.png")).find("separable, strength 0.2"), std::string::npos);
+  EXPECT_EQ(contentOf(path("out.png")).find("radius"), std::string::npos);
+  // An .exr alone has no picture to shape.
+  render({"scene.gltf", "-o", "plain.exr", "--ssao", "off"});
+  render({"scene.gltf", "-o", "out.exr", "--ssao", "off", "--effects", "low"});
+  EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
 }
 
 TEST_F(CommandLineRender, TimesPostProcessing) {

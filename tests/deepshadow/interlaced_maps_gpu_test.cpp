@@ -135,6 +135,7 @@ class InterlacedMapsGpu : public tests::GpuTest {
     const Casters casters = castersOf(geometry);
     const std::vector<int> resolutions(scene.lights.size(), resolution);
     const std::vector<dvec3> castingPoints = scene::boundingPoints(scene, {});
+    kind_ = kind;
     maps_.build(device(), {.lights = scene.lights,
                            .resolutions = resolutions,
                            .casters = casters,
@@ -169,7 +170,7 @@ class InterlacedMapsGpu : public tests::GpuTest {
 
   std::vector<dvec3> askAsBound(const Probes& probes, const Light& light, int side, size_t number = 0) {
     const InterlacedMaps::LightMap& map = maps_.lights()[number];
-    return askBound(probes, light.position, map.firstFace, map.faces, side, {{"INTERLACED_SHADOWS", "1"}});
+    return askBound(probes, light.position, map.firstFace, map.faces, side, lookupDefines(kind_));
   }
 
   std::vector<dvec3> askDeep(const scene::Scene& scene, const Probes& probes, int resolution, int side) {
@@ -188,6 +189,7 @@ class InterlacedMapsGpu : public tests::GpuTest {
   }
 
   InterlacedMaps maps_;
+  InterlacedKind kind_{};
 };
 
 // Which way a light stands to the things about the origin; the point light is amidst them.
