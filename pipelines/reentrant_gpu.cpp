@@ -89,8 +89,8 @@ void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* backg
   const gl::Framebuffer start(std::vector<const gl::Texture*>{&light.radiance, &light.seen.depth},
                               &layer.depthTest);
   gl::DrawState state{
-      .program = &frame.device().program({"pipelines/whole_image.vert", "pipelines/layer_glow.frag"},
-                                         gl::joined(frame.storageDefines(), {{"FINISHED", "1"}})),
+      .program = &frame.device().program({"pipelines/whole_image.vert", "pipelines/reentrant_start.frag"},
+                                         frame.glowDefines()),
       .target = &start,
       .viewport = {0, 0, frame.view().width, frame.view().height},
       .stencil = mask};
