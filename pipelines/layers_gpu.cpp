@@ -319,7 +319,7 @@ size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light,
 size_t LayeredFrame::dispatchWalk(const gl::Program& program, shared::ResolveParams params,
                                   const std::function<void()>& bindInputs, Walk& walk) {
   gl::Buffer counters(device(), "walk counters", sizeof(shared::ResolveCounters));
-  params.options.w = static_cast<int>(pixels());
+  if (params.options.w == 0) params.options.w = static_cast<int>(pixels());
   size_t met = 0;
   for (int i = 0;; ++i) {
     base::check(i < maxDispatches, "the walk ends");
@@ -328,7 +328,7 @@ size_t LayeredFrame::dispatchWalk(const gl::Program& program, shared::ResolvePar
     counters.clear();
     counters.bindStorage(STORAGE_COUNTERS);
     walk.rays.bindStorage(STORAGE_RAYS);
-    gl::dispatchLinear(program, pixels());
+    gl::dispatchLinear(program, static_cast<size_t>(params.options.w));
     gl::storageBarrier();
     const auto counted = counters.readValue<shared::ResolveCounters>();
     statistics.cutWalks += counted.boundHit;

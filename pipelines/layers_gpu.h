@@ -84,8 +84,8 @@ class LayeredFrame {
   // one.
   size_t walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk);
 
-  // Dispatches a program that takes all rays on, until none says that it is unfinished. How many met a
-  // surface.
+  // Dispatches a program that takes all rays on, or params.options.w of them, until none says that it is
+  // unfinished. How many met a surface.
   size_t dispatchWalk(const gl::Program& program, shared::ResolveParams params,
                       const std::function<void()>& bindInputs, Walk& walk);
 

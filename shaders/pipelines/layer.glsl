@@ -8,8 +8,13 @@
 
 #ifdef ROUTED
 #define LayerPlace ivec4  // x, y, layer, sample
+#if ROUTED_SAMPLES > 1
 #define layerSampler sampler2DMSArray
 #define layerUsampler usampler2DMSArray
+#else
+#define layerSampler sampler2DArray
+#define layerUsampler usampler2DArray
+#endif
 #define layerTexel(image, place) texelFetch(image, place.xyz, place.w)
 #else
 #define LayerPlace ivec2

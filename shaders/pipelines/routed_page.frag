@@ -3,7 +3,11 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/resolve_block.glsl"
 
+#if ROUTED_SAMPLES > 1
 layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DMSArray keys;
+#else
+layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DArray keys;
+#endif
 layout(location = 0) out uint last;
 
 void main() {
