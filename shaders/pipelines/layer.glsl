@@ -93,6 +93,7 @@ vec3 layerPass(PackedSurface surface) {
   return isTranslucent(surface) ? surfacePass(surface) : vec3(0.0);
 }
 
+#ifndef ROUTED
 bool isTranslucentAt(ivec2 pixel) {
   return isTranslucent(layerSurface(pixel));
 }
@@ -104,3 +105,4 @@ vec3 passAt(ivec2 pixel) {
 vec3 normalAt(ivec2 pixel) {
   return unpackSurface(layerSurface(pixel)).normal;
 }
+#endif

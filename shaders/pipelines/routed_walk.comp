@@ -58,7 +58,7 @@ void main() {
     if (marchTo(depth, ray, walker)) {
       if (!walker.ended) {
         PackedSurface surface = layerSurface(nearest);
-        walker.radiance += walker.throughput * shadeSurface(unpackSurface(surface), ray, depth);
+        walker.radiance += walker.throughput * shadeSurface(unpackSurface(surface), ray, depth, 1.0);
         walker.throughput *= layerPass(surface);
         walker.ended = maxComponent(walker.throughput) < params.march.y;
         last = next;
