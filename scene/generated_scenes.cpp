@@ -202,6 +202,15 @@ Camera cameraFor(const dvec3& from, const dvec3& at, double yfov, double aspect)
 
 }  // namespace
 
+Scene withoutTranslucent(const Scene& scene) {
+  Scene result = scene;
+  std::erase_if(result.instances, [&](const Instance& instance) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    return scene.materials[static_cast<size_t>(mesh.material)].translucent();
+  });
+  return result;
+}
+
 GeneratedScene layersScene(double aspect, int voxelsHigh) {
   GeneratedScene made;
   Scene& scene = made.scene;
