@@ -73,6 +73,7 @@ LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, i
   view_.params.depthRange.z = depthScale(view_.seen, camera);
   viewBlock_.writeValue(view_.params);
   const auto faces = buildShadows(usual.lightsOnce);
+  occlusion_ = scene.drawOcclusion(view_, quality.ambientOcclusion);
   const Profiler::Scope time(device().profiler(), "light lists");
   lightLists_.emplace(device(), lights::LightListInputs{scene.lights(), faces, viewBlock_, width, height,
                                                         std::nullopt, nullptr, quality.lists});
@@ -135,6 +136,10 @@ gl::ShaderDefines LayeredFrame::interlaceDefines() const {
            options().interlace == Interlace::Checkerboard ? "INTERLACE_CHECKERBOARD" : "INTERLACE_LINES"}};
 }
 
+gl::ShaderDefines LayeredFrame::glowDefines() const {
+  return occlusion_ ? gl::joined(lightingDefines(), occlusion_->defines()) : lightingDefines();
+}
+
 const lights::Light& LayeredFrame::light(size_t number) const {
   return scene_.lights()[static_cast<size_t>(lightLists_->order()[number])];
 }
@@ -144,6 +149,7 @@ shared::ResolveParams LayeredFrame::params() const {
   params.march = {quality_.stepVoxels, quality_.throughputCutoff, options().refraction * view_.height, 0};
   params.options = {0, tapsOf(quality_.surfaceShadows) + 8 * tapsOf(quality_.smokeShadows),
                     lightLists_->directionalLights(), 0};
+  params.ambient = glm::vec4(scene_.scene().ambient, quality_.ambientOcclusion.radius);
   return params;
 }
 
@@ -155,6 +161,7 @@ void LayeredFrame::bind(const shared::ResolveParams& params) {
   if (shadows_) shadows_->bind();
   if (interlaced_) interlaced_->bind();
   scene_.volumes().bind();
+  if (occlusion_) occlusion_->bind();
 }
 
 std::array<gl::Format, 3> LayeredFrame::surfaceFormats() const {
@@ -245,9 +252,10 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
       {.format = table ? gl::Format::RGBA8 : gl::Format::RGBA32F, .size = {view_.width, view_.height, 1}});
   const gl::Framebuffer target(std::vector<const gl::Texture*>{&result}, nullptr);
   gl::DrawState state{.program = &device().program(
-                          {"pipelines/whole_image.vert", "pipelines/layer_glow.frag"}, storageDefines()),
+                          {"pipelines/whole_image.vert", "pipelines/layer_glow.frag"}, glowDefines()),
                       .target = &target,
                       .viewport = {0, 0, view_.width, view_.height}};
+  bind(params());
   layer.bind();
   gl::setDrawState(state);
   gl::drawGenerated(device(), 3, 1);

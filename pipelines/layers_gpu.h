@@ -102,6 +102,8 @@ class LayeredFrame {
   gl::ShaderDefines storageDefines() const;
   gl::ShaderDefines interlaceDefines() const;
   std::array<gl::Format, 3> surfaceFormats() const;
+  // Of programs that begin with what surfaces give by themselves (shaders/pipelines/layer_ambient.glsl).
+  gl::ShaderDefines glowDefines() const;
   // Of programs that march or light surfaces.
   gl::ShaderDefines lightingDefines() const;
   // Lights in the order of the light lists.
@@ -132,6 +134,7 @@ class LayeredFrame {
   std::optional<deepshadow::InterlacedMaps> interlaced_;
   std::optional<ShadowInputs> turns_;  // where a map is built for each light in its turn
   std::optional<lights::LightLists> lightLists_;
+  std::optional<AmbientOcclusion> occlusion_;
 };
 
 // An image of a texture of 32-bit floats; the rows of images count from the top.

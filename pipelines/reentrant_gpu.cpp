@@ -107,7 +107,7 @@ void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* backg
                               &layer.depthTest);
   gl::DrawState state{
       .program = &frame.device().program({"pipelines/whole_image.vert", "pipelines/reentrant_start.frag"},
-                                         frame.storageDefines()),
+                                         frame.glowDefines()),
       .target = &start,
       .viewport = {0, 0, frame.view().width, frame.view().height},
       .stencil = mask};

@@ -68,6 +68,17 @@ TEST_P(EveryPipeline, DrawsOpaqueSurfacesAsTheListsDo) {
         << known.name;
 }
 
+TEST_P(EveryPipeline, HasTheSameAmbientLight) {
+  KnownScene known = tests::shinySpheres();
+  known.scene.ambient = {0.5, 1, 0.25};
+  Quality quality = coarse();
+  quality.ambientOcclusion = {OcclusionSize::Half, 0.5};
+  const image::Image lists = draw("lund", known, quality);
+  EXPECT_LT(image::compare(draw(GetParam(), known, quality), lists).relativeRmse, rounding);
+  quality.ambientOcclusion = {};
+  EXPECT_GT(image::compare(draw(GetParam(), known, quality), lists).relativeRmse, 100 * rounding);
+}
+
 TEST_P(EveryPipeline, DrawsImagesOfAnySize) {
   const KnownScene known = tests::smokeAndGlass();
   Quality quality = coarse();
