@@ -7,6 +7,7 @@
 #include "gl/program.h"
 #include "lights/light_reach.h"
 #include "lights/light_scissor.h"
+#include "pipelines/gbuffer_gpu.h"
 #include "scene/light_faces.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/layers.h"
@@ -213,11 +214,17 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
       what.behind->id->bind(TEXTURE_PEELED_ID);
     }
     viewBlock_.bindUniform(UNIFORM_VIEW);
-    gl::setDrawState({.program = &device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
-                      .target = &framebuffer,
-                      .viewport = {0, 0, view_.width, view_.height},
-                      .depthTest = true,
-                      .stencil = what.stencil});
+    const gl::DrawState state{
+        .program = &device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
+        .target = &framebuffer,
+        .viewport = {0, 0, view_.width, view_.height},
+        .depthTest = true,
+        .stencil = what.stencil};
+    if (surfaces == Layer::Opaque) {
+      drawOpaque(device(), scene_.geometry(), state, target.depthTest, quality_.depthsFirst);
+      return;
+    }
+    gl::setDrawState(state);
     if (what.instance)
       scene_.geometry().drawInstance(*what.instance, what.cull);
     else

@@ -304,7 +304,7 @@ class TilePainter {
           std::clamp(inputs_.quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
       const bool baseColour = frame_.aovs.contains(Aov::Albedo);
       return drawGBuffer(device_, {inputs_.scene.geometry(), view_, inputs_.width, inputs_.height, samples,
-                                   tile, baseColour});
+                                   tile, baseColour, inputs_.quality.depthsFirst});
     }();
     drawWindow(gbuffer, tile);
     ++frame_.statistics.tiles;

@@ -92,6 +92,14 @@ TEST_P(EveryPipeline, DrawsImagesOfAnySize) {
   }
 }
 
+TEST_P(EveryPipeline, DrawsTheSameWithDepthsFirst) {
+  const KnownScene known = tests::smokeAndGlass();
+  Quality quality = coarse();
+  const image::Image image = draw(GetParam(), known, quality);
+  quality.depthsFirst = true;
+  EXPECT_EQ(draw(GetParam(), known, quality).values, image.values);
+}
+
 TEST_P(EveryPipeline, IsTheSameBitsEveryTime) {
   const KnownScene known = tests::smokeAndGlass();
   EXPECT_EQ(draw(GetParam(), known, coarse()).values, draw(GetParam(), known, coarse()).values);
