@@ -1,6 +1,8 @@
-// How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built.
+// How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built. VOLUME_COUNT is
+// defined when there is smoke.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
+#include "shaders/shared/math.glsl"
 
 layout(std430, binding = STORAGE_SHADOW_FACES) readonly buffer Faces {
   ShadowFace shadowFaces[];
@@ -50,7 +52,7 @@ vec3 opticalDepthAt(ShadowTexel texel, float depth) {
 
 #endif
 
-// Through what lets light pass, opaque surfaces aside; `ownTau` is taken out.
+// Through surfaces that let light pass; `ownTau` is taken out.
 vec3 runTransmittance(ShadowTexel texel, float depth, vec3 ownTau) {
   return knotCount(texel) == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel, depth), 0.0));
 }
@@ -77,6 +79,7 @@ vec3 takeOwnSteps(inout ShadowTexel texel, float depth, float slack, uint object
   return ownTau;
 }
 
+// Smoke aside.
 vec3 texelTransmittance(uint number, float depth) {
   ShadowTexel texel = shadowTexel(number);
   return depth > texel.opaqueDepth ? vec3(0.0) : runTransmittance(texel, depth, vec3(0.0));
@@ -101,6 +104,16 @@ vec3 inCubeFace(int face, vec3 toPoint) {
 uint texelNumber(ShadowFace face, ivec2 texel) {
   texel = clamp(texel, ivec2(0), ivec2(face.texels.y - 1));
   return uint(face.texels.x + texel.y * face.texels.y + texel.x);
+}
+
+// Of its surfaces, then of its smoke.
+int texelsOfFace(ShadowFace face) {
+  return face.texels.y * face.texels.y + face.texels.w * face.texels.w;
+}
+
+uint smokeTexelNumber(ShadowFace face, ivec2 texel) {
+  texel = clamp(texel, ivec2(0), ivec2(face.texels.w - 1));
+  return uint(face.texels.x + face.texels.y * face.texels.y + texel.y * face.texels.w + texel.x);
 }
 
 // The texels that a lookup asks: side x side of them from `first` on. Weights are those of a B-spline of order `side`:
@@ -131,18 +144,35 @@ Taps tapsAround(vec2 place, int side) {
   return taps;
 }
 
+// Through the smoke before a point at a place of a face, in texels of its surfaces: the optical depths of the four texels of
+// smoke around it, bilinearly.
+vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
+#if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
+  Taps taps = tapsAround(place * (float(face.texels.w) / float(face.texels.y)), 2);
+  vec3 tau = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
+    if (knotCount(texel) != 0u) tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
+  }
+  return exp(-tau);
+#else
+  return vec3(1.0);
+#endif
+}
+
 // Of a point in smoke, in the view space of the face that sees it; `side`: see Taps.
 vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   float depth = -pFace.z;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(depth, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
-  if (side == 1) return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth);
   Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
     ivec2 offset = ivec2(i % side, i / side);
     sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
+  if (maxComponent(sum) > 0.0) sum *= smokeTransmittance(face, place, depth);
   return sum;
 }
 
@@ -209,5 +239,6 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
       }
     }
   }
-  return told > 0.0 ? sum / told : doubtful;
+  vec3 through = told > 0.0 ? sum / told : doubtful;
+  return maxComponent(through) > 0.0 ? through * smokeTransmittance(face, place, ownDepth - rounding) : through;
 }

@@ -107,7 +107,7 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
         if (cube) {
           // All six look alike but for their axes.
           int side = faceTowards(6, p - light.position.xyz);
-          seen.texels.x += side * face.texels.y * face.texels.y;
+          seen.texels.x += side * texelsOfFace(face);
           pFace = inCubeFace(side, p - light.position.xyz);
         }
         COUNT_LOOKUP(y);
