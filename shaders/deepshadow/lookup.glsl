@@ -2,7 +2,6 @@
 // defined when there is smoke.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
-#include "shaders/shared/math.glsl"
 
 layout(std430, binding = STORAGE_SHADOW_FACES) readonly buffer Faces {
   ShadowFace shadowFaces[];
@@ -124,6 +123,10 @@ struct Taps {
   vec4 y;
 };
 
+ivec2 tapOffset(int i, int side) {
+  return ivec2(i & (side - 1), i >> (side >> 1));  // a division takes long where it is done lane by lane
+}
+
 Taps tapsAround(vec2 place, int side) {
   Taps taps = Taps(ivec2(floor(place)), vec4(1.0), vec4(1.0));
   if (side == 1) return taps;
@@ -144,14 +147,14 @@ Taps tapsAround(vec2 place, int side) {
   return taps;
 }
 
-// Through the smoke before a point at a place of a face, in texels of its surfaces: the optical depths of the four texels of
-// smoke around it, bilinearly.
-vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
+// Through the smoke before a point at a place of a face, in texels of its surfaces: that of the nearest texel of smoke, or
+// the optical depths of the four around the point, bilinearly; `side`: see Taps, 1 or 2.
+vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth, int side) {
 #if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
-  Taps taps = tapsAround(place * (float(face.texels.w) / float(face.texels.y)), 2);
+  Taps taps = tapsAround(place * (float(face.texels.w) / float(face.texels.y)), side);
   vec3 tau = vec3(0.0);
-  for (int i = 0; i < 4; ++i) {
-    ivec2 offset = ivec2(i & 1, i >> 1);
+  for (int i = 0; i < side * side; ++i) {
+    ivec2 offset = tapOffset(i, side);
     ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
     if (knotCount(texel) != 0u) tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
   }
@@ -169,11 +172,10 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = ivec2(i % side, i / side);
+    ivec2 offset = tapOffset(i, side);
     sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
-  if (maxComponent(sum) > 0.0) sum *= smokeTransmittance(face, place, depth);
-  return sum;
+  return sum * smokeTransmittance(face, place, depth, min(side, 2));
 }
 
 // The opaque depth that a texel's surface would have `offset` texels away from its centre, towards a point, if it went on
@@ -209,7 +211,7 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
   float told = 0.0;
   vec3 doubtful = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = ivec2(i % side, i / side);
+    ivec2 offset = tapOffset(i, side);
     float share = taps.x[offset.x] * taps.y[offset.y];
     ivec2 at = taps.first + offset;
     vec2 xy = (vec2(at) + 0.5 - face.projection.zw) / face.projection.xy;
@@ -240,5 +242,5 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     }
   }
   vec3 through = told > 0.0 ? sum / told : doubtful;
-  return maxComponent(through) > 0.0 ? through * smokeTransmittance(face, place, ownDepth - rounding) : through;
+  return through * smokeTransmittance(face, place, ownDepth - rounding, 2);
 }
