@@ -1,15 +1,20 @@
 #include "app/commands.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
+#include "app/effects.h"
 #include "app/validators.h"
 #include "base/version.h"
+#include "image/tone_map.h"
 #include "lists/strategy.h"
 #include "lists/stress/load.h"
 #include "pipelines/aovs.h"
+#include "pipelines/pipeline_names.h"
+#include "pipelines/post.h"
 #include "pipelines/quality.h"
 
 namespace sfumato::app {
@@ -188,6 +193,45 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->type_name("BYTES|64K|256M|2G");
 }
 
+void addPipeline(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option(
+          "--pipeline", options.pipeline,
+          fmt::format("Draw so: {}; else {}", fmt::join(pipelines::pipelineNames(), ", "), options.pipeline))
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::pipelineNames()))
+      ->group("Pipeline");
+}
+
+// Settings of pipelines other than lund.
+void addDeferred(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const std::string& help) {
+    return command.add_option(name, value, help)->group("Pipeline");
+  };
+  const auto choose = [&](const std::string& name, std::string& value, const std::string& what,
+                          const std::vector<std::string>& names, const std::string& usual) {
+    command.add_option(name, value, fmt::format("{}: {}; else {}", what, fmt::join(names, ", "), usual))
+        ->group("Pipeline")
+        ->type_name("NAME")
+        ->check(oneOf(names));
+  };
+  choose("--shadows", options.shadows, "Shadows of pipelines other than lund", pipelines::shadowKinds().names,
+         "their own");
+  choose("--interlace", options.interlace, "Pixels of translucent surfaces", pipelines::interlaces().names,
+         options.interlace);
+  choose("--storage", options.storage, "Targets: of floats, or of 8 and 10 bits", pipelines::storages().names,
+         options.storage);
+  choose("--passes", options.passes, "Of reentrant: for all translucent surfaces, or an object",
+         pipelines::passesNames().names, options.passes);
+  add("--layers", options.layers, "Layers that are peeled at most: 1 to 10000, else all")
+      ->type_name("N")
+      ->check(wholeBetween(1, 10000));
+  add("--refraction", options.refraction,
+      "Bend what is seen through surfaces: 0 to 1, of the image's height, else 0")
+      ->type_name("PART")
+      ->check(between(0.0, 1.0));
+}
+
 void addScattering(CLI::App& command, RenderOptions& options) {
   // Alone it is a flag, so that what stands behind it is not taken for a number of octaves.
   command
@@ -226,6 +270,31 @@ void addReference(CLI::App& command, RenderOptions& options) {
       ->group("Quality");
 }
 
+void addAmbient(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--ambient", [&options](const std::string& text) { options.ambient = parseColour(text); },
+          "Light surfaces from all around: 0 to 1e6 each, else as the scene says")
+      ->type_name("R,G,B")
+      ->check(colour())
+      ->group("Quality");
+  CLI::Option* occlusion =
+      command
+          .add_option("--ssao", options.ambientOcclusion,
+                      "Let surfaces shadow that light: off, full, half, quarter; else off")
+          ->type_name("SIZE")
+          ->check(oneOf(pipelines::occlusionSizeNames()))
+          ->excludes("--reference")
+          ->group("Quality");
+  command
+      .add_option("--ssao-radius", options.ambientOcclusionRadius,
+                  "Within this distance: 1e-6 to 1e6, else what suits the scene")
+      ->type_name("METRES")
+      ->check(between(1e-6, 1e6))
+      ->needs(occlusion)
+      ->group("Quality");
+}
+
 void addOutput(CLI::App& command, RenderOptions& options) {
   const auto add = [&](const char* name, auto& value, const std::string& help) {
     return command.add_option(name, value, help)->group("Output");
@@ -235,9 +304,6 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE")
       ->check(fileName())
       ->allow_extra_args(false);
-  add("--exposure", options.exposureStops, "Brighten the .png: -30 to 30, else 0")
-      ->type_name("STOPS")
-      ->check(between(-30.0, 30.0));
   add("--aov", options.aovs,
       fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
                   fmt::join(pipelines::aovNames(), ", ")))
@@ -262,6 +328,56 @@ void addOutput(CLI::App& command, RenderOptions& options) {
   command
       .add_flag("-n,--dry-run", options.dryRun, "Read all files, print the plan, write nothing; needs no GL")
       ->group("Output");
+}
+
+constexpr const char* pictures = "Pictures (.png; an .exr keeps linear radiance)";
+
+void addDisplay(CLI::App& command, DisplayOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group(pictures);
+  };
+  add("--exposure", options.exposureStops, "Brighten them: -30 to 30, else 0")
+      ->type_name("STOPS")
+      ->check(between(-30.0, 30.0));
+  add("--tonemap", options.toneCurve, "neutral (Khronos), reinhard (by log-average luminance); else neutral")
+      ->type_name("NAME")
+      ->check(oneOf(image::toneCurves().names));
+  add("--white", options.white, "What reinhard shows white: 1e-6 to 1e9, else the brightest there")
+      ->type_name("LUMINANCE")
+      ->check(between(1e-6, 1e9));
+  add("--bloom", options.bloom, "Let bright parts glow: separable, mipmap or off; else off")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::blooms().names));
+  add("--bloom-strength", options.bloomStrength, "Part of their light that glows: 0 to 10, else 0.2")
+      ->type_name("PART")
+      ->check(between(0.0, 10.0));
+  add("--aa", options.antiAliasing, "edges: blur across the edges of opaque surfaces; else off")
+      ->type_name("NAME")
+      ->check(oneOf(pipelines::antiAliasings().names));
+}
+
+// What a preset sets, unless a flag did.
+void applyEffects(const CLI::App& command, RenderOptions& options) {
+  const auto effects = std::ranges::find(allEffects(), options.effects, &Effects::name);
+  if (effects == allEffects().end()) return;
+  const auto isFree = [&](const char* flag) { return command.count(flag) == 0; };
+  if (isFree("--tonemap")) options.display.toneCurve = "reinhard";
+  if (isFree("--bloom")) options.display.bloom = "mipmap";
+  if (isFree("--aa")) options.display.antiAliasing = "edges";
+  if (isFree("--ssao")) options.ambientOcclusion = effects->ambientOcclusion;
+  if (isFree("--shadow-res") && isFree("--quality")) options.mostShadowResolution = effects->shadowResolution;
+  options.routedSamples = effects->routedSamples;
+}
+
+void addEffects(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option("--effects", options.effects,
+                  "low, medium or high: reinhard, mipmap, edges, --ssao and shadow maps to suit; flags win")
+      ->type_name("NAME")
+      ->check(oneOf(effectsNames()))
+      ->excludes("--reference")
+      ->group(pictures);
+  command.parse_complete_callback([&command, &options] { applyEffects(command, options); });
 }
 
 void addTolerance(CLI::App& command, const std::string& what, Tolerance& tolerance) {
@@ -333,7 +449,9 @@ void addStrategies(CLI::App& command, StressOptions& options) {
       ->group("Lists");
 }
 
-void addStressOutput(CLI::App& command, StressOptions& options) {
+// Of a command that compares many runs.
+template <typename Options>
+void addReport(CLI::App& command, Options& options) {
   command.add_flag("--json", options.json, "As JSON")->group("Output");
   command.add_option("--report", options.report, "Write FOLDER/index.html, a page with plots")
       ->type_name("FOLDER")
@@ -354,6 +472,57 @@ void addTimes(CLI::App& command, StressOptions& options) {
       ->type_name("COUNT")
       ->check(between(0.001, 100000))
       ->group("Runs");
+}
+
+CLI::Option* addRepeat(CLI::App& command, int& repeat) {
+  return command.add_option("--repeat", repeat, "Time so many frames of each: 1 to 1000, else 3")
+      ->type_name("TIMES")
+      ->check(wholeBetween(1, 1000));
+}
+
+void addComparison(CLI::App& command, BenchOptions& options) {
+  addChoices(command, "--pipelines", options.pipelines,
+             fmt::format("Of {}; else all", fmt::join(pipelines::pipelineNames(), ",")).c_str())
+      ->type_name("NAME,...")
+      ->check(oneOf(pipelines::pipelineNames()))
+      ->group("Comparison");
+  command
+      .add_option("--exact", options.exact,
+                  "What is exact: cpu (the reference), or lund at its best; else by size")
+      ->type_name("NAME")
+      ->check(oneOf({"cpu", "lund", "auto"}))
+      ->group("Comparison");
+  addRepeat(command, options.repeat)->group("Comparison");
+}
+
+void addPaperTests(CLI::App& command, PapersOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Tests");
+  };
+  const auto takeResolution = [&options](const std::string& text) {
+    const Resolution size = parseResolution(text).value();
+    options.width = size.width;
+    options.height = size.height;
+  };
+  command
+      .add_option_function<std::string>(
+          "--res", takeResolution,
+          fmt::format("Size for their 1920x1080, else {}x{}; all else in proportion", options.width,
+                      options.height))
+      ->type_name("WxH")
+      ->check(resolution())
+      ->group("Tests");
+  add("--paper", options.paper, "metu (Aladagli 2015) or cescg (Ferko 2012), else both")
+      ->type_name("NAME")
+      ->check(oneOf({"metu", "cescg"}));
+  command
+      .add_option_function<std::string>(
+          "--lights", [&options](const std::string& text) { options.lights = parseRange(text, 0, 64); },
+          "Of metu only the tests with so many lights: 0 to 64, else all")
+      ->type_name("FROM..TO")
+      ->check(range(0, 64))
+      ->group("Tests");
+  addRepeat(command, options.repeat)->group("Tests");
 }
 
 CLI::App& addCommand(CLI::App& program, const char* name, const char* help, const char* usage) {
@@ -420,9 +589,14 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options, Verbosity& verbos
   addView(command, options);
   addQuality(command, options);
   addScattering(command, options);
+  addPipeline(command, options);
+  addDeferred(command, options);
   addLists(command, options);
   addReference(command, options);
+  addAmbient(command, options);
   addOutput(command, options);
+  addDisplay(command, options.display);
+  addEffects(command, options);
   addDevice(command, options.device);
   addFlags(command, verbosity);
   return command;
@@ -467,10 +641,39 @@ CLI::App& addStress(CLI::App& program, StressOptions& options, Verbosity& verbos
   addFire(command, options.shot);
   addView(command, options.shot);
   addQuality(command, options.shot);
-  addStressOutput(command, options);
+  addReport(command, options);
   addDevice(command, options.shot.device);
   addFlags(command, verbosity);
   return command;
+}
+
+BenchCommands addBench(CLI::App& program, BenchOptions& options, PapersOptions& papers,
+                       Verbosity& verbosity) {
+  CLI::App& bench = addCommand(program, "bench", "Compare pipelines: their errors, times and memory",
+                               "pipelines|papers [OPTIONS]");
+  CLI::App& comparison =
+      addCommand(bench, "pipelines", "Draw one scene with all, and hold each against the exact answer",
+                 "[SCENE] [OPTIONS]");
+  comparison.add_option("SCENE", options.shot.scene, ".gltf or .glb; else 1, 2, 4 and 8 panes and smoke")
+      ->check(fileName());
+  addComparison(comparison, options);
+  addSmoke(comparison, options.shot);
+  addFire(comparison, options.shot);
+  addView(comparison, options.shot);
+  addQuality(comparison, options.shot);
+  addDeferred(comparison, options.shot);
+  addReport(comparison, options);
+  addDevice(comparison, options.shot.device);
+  addFlags(comparison, verbosity);
+  CLI::App& tests =
+      addCommand(bench, "papers", "Do the papers' tests, and tell ratios beside theirs", "[OPTIONS]");
+  addPaperTests(tests, papers);
+  addReport(tests, papers);
+  addDevice(tests, papers.device);
+  addFlags(tests, verbosity);
+  bench.require_subcommand(0, 1);  // that there is one is checked after what is unknown
+  addFlags(bench, verbosity);
+  return {bench, comparison, tests};
 }
 
 CLI::App& addInfo(CLI::App& program, InfoOptions& options, Verbosity& verbosity) {

@@ -18,6 +18,14 @@ namespace {
 using namespace sfumato;
 using base::ExitCode;
 
+// The command that was named, and of it the one within it.
+std::vector<const CLI::App*> commandsOf(const CLI::App& program) {
+  std::vector<const CLI::App*> commands;
+  for (const CLI::App* command = &program; !command->get_subcommands().empty();)
+    commands.push_back(command = command->get_subcommands().front());
+  return commands;
+}
+
 // CLI11 words its other messages as ours, these two not: the argument, what is wrong.
 std::string describe(const CLI::ExtrasError&, const CLI::App& program) {
   const std::string argument = program.remaining(true).front();
@@ -28,16 +36,16 @@ std::string describe(const CLI::ExtrasError&, const CLI::App& program) {
 std::string describe(const CLI::ArgumentMismatch& error, const CLI::App& program) {
   const std::string what = error.what();
   const std::string name = what.substr(0, what.find(':'));
-  for (const CLI::App* command : program.get_subcommands())
+  for (const CLI::App* command : commandsOf(program))
     if (const CLI::Option* option = command->get_option_no_throw(name))
       return name + ": takes " + option->get_type_name() + (option->get_expected_max() > 3 ? "" : ", once");
   return what;
 }
 
 [[noreturn]] void failUsage(const CLI::App& program, const std::string& what) {
-  const std::vector<CLI::App*> commands = program.get_subcommands();
-  base::fail(ExitCode::Usage, "{}: see `sfumato {}--help`", what,
-             commands.empty() ? "" : commands.front()->get_name() + " ");
+  std::string names;
+  for (const CLI::App* command : commandsOf(program)) names += command->get_name() + " ";
+  base::fail(ExitCode::Usage, "{}: see `sfumato {}--help`", what, names);
 }
 
 // The command line in one line, as a shell would take it again.
@@ -66,6 +74,10 @@ int run(int argc, char** argv) {
   app::StressOptions stressOptions;
   stressOptions.shot.commandLine = renderOptions.commandLine;
   const CLI::App& stressCommand = app::addStress(program, stressOptions, verbosity);
+  app::BenchOptions benchOptions;
+  benchOptions.shot.commandLine = renderOptions.commandLine;
+  app::PapersOptions papersOptions{.commandLine = renderOptions.commandLine};
+  const app::BenchCommands benchCommands = app::addBench(program, benchOptions, papersOptions, verbosity);
   app::InfoOptions infoOptions;
   const CLI::App& infoCommand = app::addInfo(program, infoOptions, verbosity);
   app::ValidateOptions validateOptions;
@@ -87,6 +99,9 @@ int run(int argc, char** argv) {
   if (renderCommand.parsed()) return app::render(renderOptions);
   if (compareCommand.parsed()) return app::compare(compareOptions);
   if (stressCommand.parsed()) return app::stress(stressOptions);
+  if (benchCommands.pipelines.parsed()) return app::bench(benchOptions);
+  if (benchCommands.papers.parsed()) return app::benchPapers(papersOptions);
+  if (benchCommands.bench.parsed()) failUsage(program, "bench: compares what: name pipelines or papers");
   if (infoCommand.parsed()) return app::info(infoOptions);
   if (validateCommand.parsed()) return app::validate(validateOptions);
   failUsage(program, "no command");

@@ -17,6 +17,16 @@ struct DeviceChoice {
   std::string shaderDir;
 };
 
+// What shapes pictures for a screen (.png), and leaves an .exr as it is.
+struct DisplayOptions {
+  double exposureStops = 0;
+  std::string toneCurve = "neutral";
+  std::optional<double> white;  // luminance, of Reinhard's curve; none: the largest of the picture
+  std::string bloom = "off";
+  std::optional<double> bloomStrength;
+  std::string antiAliasing = "off";
+};
+
 struct RenderOptions {
   DeviceChoice device;
   std::string commandLine;           // as typed, for the metadata
@@ -40,6 +50,13 @@ struct RenderOptions {
   std::optional<glm::dvec3> lookAt;
   std::optional<double> fovDegrees;
   std::optional<double> timeSeconds;  // pose of the scene's animations; none: at rest
+  std::string pipeline = "lund";
+  std::string shadows;  // of a pipeline other than lund: pipelines/deferred_options.h; empty: its own
+  std::string interlace = "lines";
+  std::string storage = "exact";
+  std::string passes = "object";
+  int layers = 0;
+  double refraction = 0;
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
@@ -51,9 +68,15 @@ struct RenderOptions {
   std::string lists;          // a strategy; empty: the device's
   std::string listMemory;     // empty: what the device allows
   std::string onOverflow = "window";
-  bool reference = false;  // drawn by the CPU reference
-  int samples = 1;         // a side of the pixel, of the reference
-  double exposureStops = 0;
+  std::optional<glm::dvec3> ambient;
+  std::string ambientOcclusion = "off";
+  std::optional<double> ambientOcclusionRadius;  // m
+  bool reference = false;                        // drawn by the CPU reference
+  int samples = 1;                               // a side of the pixel, of the reference
+  DisplayOptions display;
+  std::string effects;                                           // a preset (app/effects.h), empty: none
+  std::optional<int> mostShadowResolution;                       // of that
+  int routedSamples = 0;                                         // likewise: see pipelines::DeferredOptions
   std::vector<std::string> aovs;                                 // see pipelines/aovs.h
   std::string deep;                                              // .exr, empty: none
   std::vector<std::pair<std::string, std::string>> deepShadows;  // a light's name or number, and an .exr
@@ -120,11 +143,35 @@ struct StressOptions {
   std::string report;  // folder, empty: none
 };
 
+struct BenchOptions {
+  // Device, command line, and of a scene what is seen of it; without one: panes and smoke.
+  RenderOptions shot{.width = 320, .height = 180};
+  std::vector<std::string> pipelines;  // empty: all
+  std::string exact = "auto";          // "cpu", "lund"
+  int repeat = 3;                      // frames that are timed
+  bool json = false;
+  std::string report;  // folder, empty: none
+};
+
+struct PapersOptions {
+  DeviceChoice device;
+  std::string commandLine;
+  std::string paper;  // "metu", "cescg"; empty: both
+  int width = 480;    // of what the papers drew with 1920 x 1080 pixels
+  int height = 270;
+  std::optional<glm::ivec2> lights;  // from, to: rows of the first paper's tables
+  int repeat = 3;
+  bool json = false;
+  std::string report;
+};
+
 // Each runs its subcommand; the result is the program's exit code. Errors are thrown as base::Error.
 int render(const RenderOptions& options);
 int compare(const CompareOptions& options);
 int info(const InfoOptions& options);
 int validate(const ValidateOptions& options);
 int stress(const StressOptions& options);
+int bench(const BenchOptions& options);
+int benchPapers(const PapersOptions& options);
 
 }  // namespace sfumato::app

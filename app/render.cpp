@@ -2,12 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <set>
 
 #include "app/aov_files.h"
 #include "app/deep_files.h"
+#include "app/display.h"
 #include "app/options.h"
 #include "app/shot.h"
 #include "base/error.h"
@@ -18,6 +19,7 @@
 #include "base/version.h"
 #include "image/image_file.h"
 #include "pipelines/list_prediction.h"
+#include "pipelines/pipeline_names.h"
 #include "pipelines/reference.h"
 #include "scene/camera_view.h"
 #include "scene/default_set.h"
@@ -89,13 +91,26 @@ bool glows(const scene::Scene& scene) {
 // Sets come without lights as often as with them.
 void lightTheDark(const RenderOptions& options, scene::Scene& scene) {
   if (!scene.lights.empty()) return;
-  if (glows(scene)) {
+  if (scene.ambient != glm::dvec3(0)) {
+    if (!scene.volumes.empty())
+      base::warn(
+          "{}: no lights but the ambient one, of which smoke scatters nothing: put lights into the file",
+          options.scene);
+  } else if (glows(scene)) {
     base::warn("{}: no lights: only what glows is seen", options.scene);
   } else {
     scene::addDefaultLights(scene);
     base::warn("{}: no lights: two directional ones are added: put lights into the file to choose them",
                options.scene);
   }
+}
+
+pipelines::AmbientOcclusionOptions chooseOcclusion(const RenderOptions& options, const scene::Scene& scene) {
+  const pipelines::OcclusionSize size = pipelines::occlusionSizeNamed(options.ambientOcclusion);
+  if (size == pipelines::OcclusionSize::Off) return {};
+  if (scene.ambient == glm::dvec3(0))
+    base::warn("--ssao: there is no ambient light to take from: give some with --ambient");
+  return {size, options.ambientOcclusionRadius.value_or(pipelines::usualOcclusionRadius(scene))};
 }
 
 // The camera that --camera names, the first one, or nothing.
@@ -132,10 +147,25 @@ scene::Camera chooseCamera(const RenderOptions& options, const scene::Scene& sce
   return camera;
 }
 
+pipelines::DeferredOptions deferredOf(const RenderOptions& options) {
+  pipelines::DeferredOptions deferred;
+  if (!options.shadows.empty()) deferred.shadows = pipelines::shadowKinds().named(options.shadows);
+  deferred.interlace = pipelines::interlaces().named(options.interlace);
+  deferred.storage = pipelines::storages().named(options.storage);
+  deferred.passes = pipelines::passesNames().named(options.passes);
+  deferred.layers = options.layers;
+  deferred.samples = options.routedSamples;
+  deferred.refraction = options.refraction;
+  return deferred;
+}
+
+}  // namespace
+
 pipelines::Quality chooseQuality(const RenderOptions& options) {
   pipelines::Quality quality = pipelines::qualityNamed(options.quality);
   if (options.stepVoxels) quality.stepVoxels = *options.stepVoxels;
-  quality.shadowResolution = options.shadowResolution.value_or(quality.shadowResolution);
+  quality.shadowResolution =
+      options.shadowResolution.value_or(options.mostShadowResolution.value_or(quality.shadowResolution));
   quality.exactShadowResolution = options.shadowResolution.has_value();
   quality.shadowError = options.shadowError.value_or(quality.shadowError);
   quality.exactShadowError = options.shadowError.has_value();
@@ -149,13 +179,11 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
   quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
+  quality.deferred = deferredOf(options);
   return quality;
 }
 
-void expose(image::Image& image, double stops) {
-  const auto factor = static_cast<float>(std::exp2(stops));
-  for (float& value : image.values) value *= factor;
-}
+namespace {
 
 std::string numbers(const glm::dvec3& v) {
   return fmt::format("{} {} {}", v.x + 0.0, v.y + 0.0, v.z + 0.0);  // + 0.0: none is shown as -0
@@ -170,10 +198,11 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                             {"sfumato:command_line", options.commandLine},
                             {"sfumato:scene", options.scene.empty() ? "default set" : options.scene},
                             {"sfumato:size", fmt::format("{}x{}", options.width, options.height)},
+                            {"sfumato:pipeline", options.pipeline},
                             {"sfumato:quality", options.quality},
                             {"sfumato:step_voxels", fmt::format("{}", shot.quality.stepVoxels)},
                             {"sfumato:scattering_octaves", fmt::format("{}", options.scatteringOctaves)},
-                            {"sfumato:exposure_stops", fmt::format("{}", options.exposureStops)},
+                            {"sfumato:exposure_stops", fmt::format("{}", options.display.exposureStops)},
                             {"sfumato:camera_position", numbers(camera.worldFromView[3])},
                             {"sfumato:camera_direction", numbers(-glm::dvec3(camera.worldFromView[2]))},
                             {"sfumato:camera_up", numbers(camera.worldFromView[1])},
@@ -192,6 +221,11 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                                                              pipelines::nameOf(shot.quality.smokeShadows)));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
   }
+  if (shot.scene.ambient != glm::dvec3(0))
+    result.emplace_back("sfumato:ambient", numbers(shot.scene.ambient));
+  if (const auto& occlusion = shot.quality.ambientOcclusion; occlusion.size != pipelines::OcclusionSize::Off)
+    result.emplace_back("sfumato:ssao",
+                        fmt::format("{}, radius {} m", pipelines::nameOf(occlusion.size), occlusion.radius));
   for (size_t i = 0; i < shot.media.size(); ++i)
     result.emplace_back(
         fmt::format("sfumato:volume{}", i),
@@ -205,6 +239,21 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
 std::filesystem::path placeOf(const std::string& file) {
   std::error_code ignored;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+}
+
+// What only the core pipeline draws is not left out silently.
+void checkPipeline(const RenderOptions& options) {
+  pipelines::checkPipelineName(options.pipeline);
+  if (options.pipeline == "lund") return;
+  const std::pair<const char*, bool> flags[] = {{"--aov", !options.aovs.empty()},
+                                                {"--deep", !options.deep.empty()},
+                                                {"--deep-shadow", !options.deepShadows.empty()},
+                                                {"--half-res-smoke", options.halfResolutionSmoke},
+                                                {"--reference", options.reference}};
+  for (const auto& [flag, given] : flags)
+    if (given)
+      fail(ExitCode::Usage, "{}: --pipeline {} has no such thing: leave out one of them", flag,
+           options.pipeline);
 }
 
 // Every output is checked before the long work: it can be written, and is no other file of this run.
@@ -275,8 +324,8 @@ void printPlan(const RenderOptions& options, const Shot& shot) {
   if (!options.statistics.empty()) base::print("output   {}\n", options.statistics);
 }
 
-// Radiance first; then it is exposed for the pictures in its own place, as images may be large.
-void writeOutputs(const RenderOptions& options, Drawn drawn, const image::Metadata& settings) {
+void writeOutputs(const RenderOptions& options, const Shot& shot, Drawn drawn,
+                  const image::Metadata& settings) {
   writeHeatMaps(options, drawn.aovs, settings);
   writeDeepFiles(options, drawn, settings);
   std::vector<image::Layer> layers;
@@ -286,16 +335,19 @@ void writeOutputs(const RenderOptions& options, Drawn drawn, const image::Metada
     image::writeLayers(output, drawn.radiance, layers, settings);
     base::note("wrote {}", output);
   }
-  expose(drawn.radiance, options.exposureStops);
+  image::Metadata pictureSettings = settings;
+  std::ranges::copy(displayMetadata(options, shot, drawn), std::back_inserter(pictureSettings));
   for (const std::string& output : options.outputs) {
     if (image::holdsLayers(output)) continue;
-    image::writeImage(output, drawn.radiance, settings);
+    image::writeImage(output, drawn.display ? *drawn.display : drawn.radiance, pictureSettings, false,
+                      toneMappingOf(options.display, drawn.brightness));
     base::note("wrote {}", output);
   }
 }
 
 // The frame by the CPU reference, --repeat times.
 Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_point start) {
+  const PostProcess postProcess = openPostProcess(options, shot);
   Drawn drawn{.device = "CPU reference"};
   const double startupSeconds = secondsSince(start);
   std::vector<double> seconds;
@@ -310,12 +362,13 @@ Drawn drawReference(const RenderOptions& options, const Shot& shot, Clock::time_
                                    .shadowStepVoxels = shot.quality.stepVoxels,
                                    .scatteringOctaves = options.scatteringOctaves,
                                    .showProgress = true,
-                                   .aovs = shot.aovs});
+                                   .aovs = shot.aovsToDraw()});
     drawn.radiance = std::move(frame.radiance);
     drawn.aovs = std::move(frame.aovs);
     seconds.push_back(secondsSince(frameStart));
   }
   base::note("frame: {:.2f} s", seconds.back());
+  postProcess(drawn);
   drawn.statistics = base::jsonText(nlohmann::json{{"device", drawn.device},
                                                    {"startup", {{"seconds", startupSeconds}}},
                                                    {"frame", {{"seconds", seconds}}}});
@@ -330,6 +383,22 @@ scene::Bounds boundsOf(const scene::Scene& scene, const std::vector<volumes::Med
   return scene::boundsOf(scene::boundingPoints(scene, mediaBoxes));
 }
 
+bool isOfScene(const RenderOptions& options) {
+  return !options.scene.empty() || !options.volumes.empty();
+}
+
+void checkWithoutScene(const RenderOptions& options) {
+  const std::pair<const char*, bool> given[] = {{"--grid", !options.grid.empty()},
+                                                {"--volume-scale", options.volumeScale.has_value()},
+                                                {"--camera", !options.camera.empty()},
+                                                {"--time", options.timeSeconds.has_value()},
+                                                {"--look-from", options.lookFrom.has_value()},
+                                                {"--look-at", options.lookAt.has_value()},
+                                                {"--fov", options.fovDegrees.has_value()}};
+  for (const auto& [name, is] : given)
+    if (is) fail(ExitCode::Usage, "{}: is for a scene: name a .gltf or .glb file", name);
+}
+
 Shot makeShot(const RenderOptions& options) {
   Shot shot;
   if (!options.scene.empty()) shot.scene = scene::readGltf(options.scene, options.timeSeconds);
@@ -337,20 +406,24 @@ Shot makeShot(const RenderOptions& options) {
   shot.media = scene::readMedia(shot.scene);
   scene::addFireLights(shot.scene, shot.media);
   if (options.scene.empty()) addDefaults(options, shot.scene, shot.media);
+  shot.scene.ambient = options.ambient.value_or(shot.scene.ambient);
   lightTheDark(options, shot.scene);
   shot.camera = chooseCamera(options, shot.scene, shot.media);
   shot.quality = chooseQuality(options);
+  shot.quality.ambientOcclusion = chooseOcclusion(options, shot.scene);
   if (!options.volumeMemory.empty())
     shot.volumeMemory = base::bytesNamed(options.volumeMemory, "--volume-memory");
   shot.aovs = wantedAovs(options);
   shot.deepShadows = deepShadowLights(options, shot.scene);
+  shot.post = wantedPostProcessing(options);
   return shot;
 }
 
 int render(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
-  if (options.scene.empty() && options.volumes.empty())
+  if (!isOfScene(options))
     fail(ExitCode::Usage, "render: no scene: name a .gltf or .glb file, or smoke with --volume FILE.vdb");
+  checkPipeline(options);
   checkOutputs(options);
   const Shot shot = makeShot(options);
   if (options.dryRun) {
@@ -360,7 +433,7 @@ int render(const RenderOptions& options) {
   Drawn drawn = options.reference ? drawReference(options, shot, start) : drawOnGpu(options, shot, start);
   const image::Metadata settings = metadata(options, shot, drawn.device);
   const std::string statistics = std::move(drawn.statistics);
-  writeOutputs(options, std::move(drawn), settings);
+  writeOutputs(options, shot, std::move(drawn), settings);
   if (!options.statistics.empty()) {
     base::writeFile(options.statistics, statistics);
     base::note("wrote {}", options.statistics);

@@ -4,19 +4,22 @@
 #include <functional>
 #include <map>
 
+#include "app/display_gpu.h"
 #include "app/shot.h"
 #include "app/statistics_gpu.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/size_text.h"
 #include "gl/device.h"
-#include "pipelines/linked_lists_gpu.h"
+#include "pipelines/aovs_gpu.h"
+#include "pipelines/list_prediction.h"
+#include "pipelines/pipeline_gpu.h"
 
 namespace sfumato::app {
 namespace {
 
 // Draws the frame --repeat times; the profiler keeps the times of the last one.
-pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& pipeline, const Shot& shot,
+pipelines::Frame drawFrames(gl::Device& device, pipelines::Pipeline& pipeline, const Shot& shot,
                             const RenderOptions& options, std::vector<double>& seconds) {
   pipelines::Quality quality = shot.quality;
   if (options.lists.empty()) quality.lists.strategy = lists::chooseStrategy(device);
@@ -27,7 +30,7 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::LinkedListsPipeline& 
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
     frame = pipeline.render(shot.camera, options.width, options.height, quality,
-                            {.aovs = shot.aovs,
+                            {.aovs = shot.aovsToDraw(),
                              .deep = !options.deep.empty(),
                              .deepShadows = shot.deepShadows,
                              .countLookups = !options.statistics.empty(),
@@ -69,18 +72,24 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   if (!options.statistics.empty()) device.profiler().enable();
 
   RunTimes times;
-  pipelines::LinkedListsPipeline pipeline(device, shot.scene, shot.media, {.budgetBytes = shot.volumeMemory});
+  const auto pipeline = pipelines::makePipeline(options.pipeline, device, shot.scene, shot.media,
+                                                {.budgetBytes = shot.volumeMemory});
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);
 
-  pipelines::Frame frame = drawFrames(device, pipeline, shot, options, times.frameSeconds);
+  pipelines::Frame frame = drawFrames(device, *pipeline, shot, options, times.frameSeconds);
+  if (frame.aovs.empty() && !shot.aovsToDraw().empty()) {  // a pipeline that tells none by itself
+    frame.aovs = pipelines::emptyImages(shot.aovsToDraw(), options.width, options.height);
+    pipelines::drawSurfaceAovs(pipeline->scene(), shot.camera, frame.aovs);
+  }
+  Drawn drawn{std::move(frame.radiance), std::move(frame.aovs), std::move(frame.deep),
+              std::move(frame.deepShadows), device.names().renderer};
+  postProcess(device, options, shot, drawn);
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
   noteShadowMaps(frame.statistics);
   warnOfProblems(device, frame.statistics);
-  Drawn drawn{std::move(frame.radiance),    std::move(frame.aovs),   std::move(frame.deep),
-              std::move(frame.deepShadows), device.names().renderer, {}};
   if (options.statistics.empty()) return drawn;
   const pipelines::ListPrediction fromBounds = pipelines::predictLists(
       shot.scene, shot.media, shot.camera, options.width, options.height, shot.quality);

@@ -1,8 +1,8 @@
 // `sfumato stress`: builds lists of every kind under load, and judges every node of them.
 #include <csignal>
-#include <filesystem>
 #include <set>
 
+#include "app/report_file.h"
 #include "app/shot.h"
 #include "app/stress.h"
 #include "app/stress_scene_gpu.h"
@@ -22,18 +22,8 @@ using base::fail;
 
 namespace {
 
-namespace fs = std::filesystem;
-
-fs::path pageOf(const StressOptions& options) {
-  return fs::path(options.report) / "index.html";
-}
-
-bool isOfScene(const StressOptions& options) {
-  return !options.shot.scene.empty() || !options.shot.volumes.empty();
-}
-
 void checkOptions(const StressOptions& options) {
-  if (isOfScene(options)) {
+  if (isOfScene(options.shot)) {
     for (const std::string& budget : options.listMemory)
       if (budget.ends_with('%'))
         fail(ExitCode::Usage,
@@ -41,25 +31,9 @@ void checkOptions(const StressOptions& options) {
     if (options.minutes > 0) fail(ExitCode::Usage, "--minutes: is for synthetic loads: leave the scene out");
     return;
   }
-  const RenderOptions& shot = options.shot;
-  const std::pair<const char*, bool> given[] = {
-      {"--lights", options.lights.has_value()},         {"--grid", !shot.grid.empty()},
-      {"--volume-scale", shot.volumeScale.has_value()}, {"--camera", !shot.camera.empty()},
-      {"--time", shot.timeSeconds.has_value()},         {"--look-from", shot.lookFrom.has_value()},
-      {"--look-at", shot.lookAt.has_value()},           {"--fov", shot.fovDegrees.has_value()}};
-  for (const auto& [name, is] : given)
-    if (is) fail(ExitCode::Usage, "{}: is for a scene: name a .gltf or .glb file", name);
+  if (options.lights) fail(ExitCode::Usage, "--lights: is for a scene: name a .gltf or .glb file");
+  checkWithoutScene(options.shot);
   plannedRuns(options);  // throws where one is too large
-}
-
-// Before the long work: the page can be made and written.
-void checkReport(const StressOptions& options) {
-  if (options.report.empty()) return;
-  image::checkReports();
-  std::error_code problem;
-  fs::create_directories(options.report, problem);
-  if (problem) fail(ExitCode::Input, "{}: cannot be made: {}", options.report, problem.message());
-  base::checkWritable(pageOf(options));
 }
 
 // Compiles what a run needs, so that its times hold none of that: the same on few cells, with all the budget
@@ -138,8 +112,8 @@ void tell(const StressOptions& options, const StressResult& result) {
   else
     base::printResult(tableOf(result));
   if (options.report.empty()) return;
-  base::writeFile(pageOf(options), image::reportPage(reportOf(result)));
-  base::note("wrote {}", pageOf(options).string());
+  base::writeFile(pageOf(options.report), image::reportPage(reportOf(result)));
+  base::note("wrote {}", pageOf(options.report).string());
 }
 
 // Each reason once.
@@ -161,7 +135,7 @@ int exitCodeOf(const StressResult& result) {
 int stress(const StressOptions& options) {
   const Clock::time_point start = Clock::now();
   checkOptions(options);
-  checkReport(options);
+  checkReport(options.report);
   gl::Device device({.choice = options.shot.device.device, .shaderDir = options.shot.device.shaderDir});
   base::note("device: {} ({})", device.names().renderer, device.names().platform);
 
@@ -169,7 +143,7 @@ int stress(const StressOptions& options) {
                       .commandLine = options.shot.commandLine,
                       .soak = options.minutes > 0};
   const base::Interruption interruption({SIGINT});
-  if (isOfScene(options))
+  if (isOfScene(options.shot))
     stressScene(
         device, options, [&] { return interruption.happened(); }, result);
   else if (result.soak)

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/stress.h"
+#include "app/text_table.h"
 #include "base/size_text.h"
 
 namespace sfumato::app {
@@ -15,24 +16,6 @@ using Json = nlohmann::json;
 // Millions a second.
 std::string rate(size_t count, double seconds) {
   return seconds > 0 ? fmt::format("{:.2f}", static_cast<double>(count) / seconds / 1e6) : "-";
-}
-
-using Row = std::vector<std::string>;
-
-// Words to the left, numbers to the right; `words` are the columns that hold words.
-std::string aligned(const std::vector<Row>& rows, size_t words) {
-  std::vector<size_t> widths(rows.front().size());
-  for (const Row& row : rows)
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line;
-    for (size_t i = 0; i < row.size(); ++i)
-      line +=
-          i < words ? fmt::format("{:<{}}  ", row[i], widths[i]) : fmt::format("{:>{}}  ", row[i], widths[i]);
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
 }
 
 std::string sizeOf(const StressRun& run) {

@@ -65,6 +65,29 @@ CLI::Validator resolution() {
   return CLI::Validator(check, "");
 }
 
+std::optional<glm::dvec3> parseColour(std::string_view text) {
+  std::vector<double> parts;
+  for (bool more = true; more;) {
+    const size_t comma = text.find(',');
+    const auto value = parse<double>(text.substr(0, comma));
+    if (!value || !(*value >= 0 && *value <= 1e6)) return std::nullopt;
+    parts.push_back(*value);
+    more = comma != std::string_view::npos;
+    if (more) text.remove_prefix(comma + 1);
+  }
+  if (parts.size() == 1) return glm::dvec3(parts[0]);
+  if (parts.size() != 3) return std::nullopt;
+  return glm::dvec3(parts[0], parts[1], parts[2]);
+}
+
+CLI::Validator colour() {
+  const auto check = [](const std::string& text) -> std::string {
+    if (parseColour(text)) return {};
+    return fmt::format("\"{}\" is not a colour R,G,B, or one number for all, from 0 to 1e6 each", text);
+  };
+  return CLI::Validator(check, "");
+}
+
 std::optional<glm::ivec2> parseRange(std::string_view text, int low, int high) {
   const size_t dots = text.find("..");
   const auto first = parse<int>(text.substr(0, dots));

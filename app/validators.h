@@ -26,6 +26,10 @@ struct Resolution {
 std::optional<Resolution> parseResolution(std::string_view text);
 CLI::Validator resolution();
 
+// Of "1,0.5,0" or of one number for all three; std::nullopt unless each is from 0 to 1e6.
+std::optional<glm::dvec3> parseColour(std::string_view text);
+CLI::Validator colour();
+
 // Of "8" or "1..4096", both ends from `low` to `high`, the second not below the first.
 std::optional<glm::ivec2> parseRange(std::string_view text, int low, int high);
 CLI::Validator range(int low, int high);

@@ -100,4 +100,31 @@ std::vector<FaceProjection> cubeFaces(const dvec3& position, int side) {
   return faces;
 }
 
+shared::ShadowFace faceData(const FaceProjection& face, size_t firstTexel) {
+  shared::ShadowFace data{};
+  data.faceFromWorld = glm::inverse(face.worldFromFace);
+  const glm::dvec2 scale = static_cast<double>(face.side) / (2.0 * face.halfExtent);
+  data.projection = glm::vec4(glm::vec2(scale), glm::vec2(face.side / 2.0));
+  data.texels = {static_cast<int>(firstTexel), face.side, face.orthographic ? 0 : 1, face.smokeSide};
+  return data;
+}
+
+shared::ViewParams faceView(const FaceProjection& face, int side) {
+  shared::ViewParams view{};
+  view.viewFromWorld = glm::inverse(face.worldFromFace);
+  view.worldFromView = face.worldFromFace;
+  glm::mat4 clip(0.f);
+  clip[0][0] = static_cast<float>(1.0 / face.halfExtent.x);
+  clip[1][1] = static_cast<float>(1.0 / face.halfExtent.y);
+  if (face.orthographic)
+    clip[3][3] = 1.f;
+  else
+    clip[2][3] = -1.f;
+  view.clipFromView = clip;
+  view.halfExtent = glm::vec4(glm::vec2(face.halfExtent), face.orthographic ? 1.f : 0.f, 0.f);
+  view.depthRange = {0.f, 3e38f, 0.f, 0.f};
+  view.size = {side, side, 0, 0};
+  return view;
+}
+
 }  // namespace sfumato::deepshadow

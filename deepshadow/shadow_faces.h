@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "shaders/shared/deepshadow.h"
+#include "shaders/shared/view.h"
+
 namespace sfumato::deepshadow {
 
 // One square projection. View space looks along -Z; depth is the distance along -Z.
@@ -42,5 +45,11 @@ FaceProjection directionalFace(const glm::dvec3& direction, int side, std::span<
 FaceProjection coneFace(const glm::dvec3& position, const glm::dvec3& direction, double angle, int side);
 // The whole sphere around `position`: six faces of half the side, +x -x +y -y +z -z.
 std::vector<FaceProjection> cubeFaces(const glm::dvec3& position, int side);
+
+// A face as lookups know it; its texels count from `firstTexel` on.
+shared::ShadowFace faceData(const FaceProjection& face, size_t firstTexel);
+// A face as something of so many texels a side to draw into. Clip z is 0: fragments tell their depth
+// themselves, and draws clamp what is before the near or behind the far plane.
+shared::ViewParams faceView(const FaceProjection& face, int side);
 
 }  // namespace sfumato::deepshadow

@@ -157,6 +157,10 @@ void Gltf::addNode(const std::string& name, json node) {
   root_["scenes"][0]["nodes"].push_back(add("nodes", node));
 }
 
+void Gltf::setAmbient(const vec3& radiance) {
+  root_["scenes"][0]["extras"]["ambient"] = toJson(radiance);
+}
+
 void Gltf::write(const std::filesystem::path& path) {
   std::filesystem::path bin = path;
   bin.replace_extension(".bin");

@@ -57,6 +57,7 @@ class Gltf {
   void addLight(const std::string& name, nlohmann::json light, const nlohmann::json& placement);
   void addCamera(const std::string& name, float yfov, nlohmann::json placement);
   void addNode(const std::string& name, nlohmann::json node);
+  void setAmbient(const glm::vec3& radiance);
   // Writes `path` and its buffer, PATH with the ending .bin.
   void write(const std::filesystem::path& path);
 

@@ -516,10 +516,37 @@ void makeFlags(const fs::path& folder) {
   gltf.write(folder / "flags.gltf");
 }
 
+// Light from all around, and a weak sun; rendered with and without --ssao.
+void makeCourtyard(const fs::path& folder) {
+  Gltf gltf = newScene();
+  addFloor(gltf);
+  addWall(gltf, 1.6f);
+  const size_t stone = gltf.addMaterial({.name = "stone", .colour = {0.62f, 0.57f, 0.5f}});
+  const size_t clay = gltf.addMaterial({.name = "clay", .colour = {0.7f, 0.38f, 0.22f}});
+  for (int i = 0; i < 4; ++i)
+    gltf.addShape("column", column({1.3f * static_cast<float>(i) - 2.2f, 0, -1.2f}, 2.4f, 0.15f), stone);
+  Shape steps;
+  for (int i = 0; i < 5; ++i) {
+    const auto up = static_cast<float>(i);
+    steps.addBox({1.2f + 0.22f * up, 0, -0.9f}, {2.6f, 0.16f * (up + 1), 0.5f});
+  }
+  gltf.addShape("steps", steps, stone);
+  gltf.addShape("teapot", teapot(), clay, at({-0.9f, 0, 0.1f}));
+  gltf.addShape("ball", ball({0.35f, 0.3f, -0.1f}, 0.3f), stone);
+  gltf.addShape("ball", ball({0.75f, 0.18f, 0.35f}, 0.18f), clay);
+  gltf.addShape("glass", ball({-0.1f, 0.22f, 0.75f}, 0.22f),
+                gltf.addMaterial({.name = "glass", .colour = {0.6f, 0.85f, 0.8f}, .transmission = 1}));
+  gltf.setAmbient({0.5f, 0.55f, 0.62f});
+  addSun(gltf, 1.1f, {-2.4f, 3.2f, 2.2f});
+  gltf.addCamera("camera", 0.6f, lookingAt({0.9f, 1.7f, 3.6f}, {0.3f, 0.55f, -0.5f}));
+  gltf.write(folder / "courtyard.gltf");
+}
+
 void makeGallery(const fs::path& folder) {
   constexpr int voxelsHigh = 192;
   constexpr double plumeHeight = 2.3;
   constexpr uint64_t seed = 2;
+  makeCourtyard(folder);
   volumes::writeVdb(folder / "plume.vdb", volumes::makePlume(voxelsHigh, plumeHeight, seed));
   makeCurtains(folder);
   makeCurtainsInSpot(folder);

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes every picture of docs/gallery.md: builds, writes the scenes into out/gallery, renders them into docs/images.
+# Makes every picture of docs/gallery.md and docs/post_processing.md: builds, writes the scenes into out/gallery,
+# renders them into docs/images.
 # Arguments are passed on to `sfumato render`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -15,6 +16,23 @@ for scene in out/gallery/*.gltf; do
   if [[ $scene == */many_lights.gltf ]]; then quality+=(--aov lights); fi
   if [[ $scene == */smoke.gltf ]]; then quality+=(--aov shadow-nodes); fi
   if [[ $scene == */multiscatter.gltf ]]; then quality+=(--multiscatter); fi
+  if [[ $scene == */courtyard.gltf ]]; then quality+=(--ssao full); fi
   echo "== $picture"
   build/release/app/sfumato render "$scene" --res 640x360 "${quality[@]}" -o "$picture" "$@"
 done
+build/release/app/sfumato render out/gallery/courtyard.gltf --res 640x360 --quality high -o docs/images/courtyard_open.png "$@"
+
+# The pictures of docs/post_processing.md: NAME SCENE FLAGS...
+shape() {
+  echo "== docs/images/$1.png"
+  build/release/app/sfumato render "out/gallery/$2.gltf" -o "docs/images/$1.png" "${@:3}"
+}
+small=(--res 400x225)
+shape tonemap_neutral blades "${small[@]}" "$@"
+shape tonemap_reinhard blades "${small[@]}" --tonemap reinhard "$@"
+shape bloom_off slide "${small[@]}" "$@"
+shape bloom_separable slide "${small[@]}" --bloom separable --bloom-strength 0.5 "$@"
+shape bloom_mipmap slide "${small[@]}" --bloom mipmap --bloom-strength 0.5 "$@"
+coarse=(--res 160x90 --quality draft)
+shape aa_off grazing "${coarse[@]}" "$@"
+shape aa_edges grazing "${coarse[@]}" --aa edges "$@"

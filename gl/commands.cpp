@@ -77,6 +77,7 @@ void setDrawState(const DrawState& state) {
   if (state.scissor) glScissor(state.scissor->x, state.scissor->y, state.scissor->z, state.scissor->w);
   setStencil(state.stencil);
   setSampleMask(state.sampleMask);
+  enable(GL_MULTISAMPLE, state.multisample);
 }
 
 void setCull(Cull cull) {

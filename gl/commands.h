@@ -42,6 +42,8 @@ struct DrawState {
   Blend blend = Blend::None;
   std::optional<StencilTest> stencil;
   std::optional<unsigned> sampleMask;  // samples of a pixel that may be written to; none: all
+  // Off: a fragment covers all samples of the pixels whose centres it covers; the sample mask has no say.
+  bool multisample = true;
 };
 
 // Makes the state current for the draws that follow.

@@ -21,4 +21,9 @@ void MemoryLedger::remove(const std::string& label, size_t bytes) {
   bytes_ -= bytes;
 }
 
+void MemoryLedger::restartPeaks() {
+  peakBytesByLabel_ = bytesByLabel_;
+  peakBytes_ = bytes_;
+}
+
 }  // namespace sfumato::gl

@@ -11,6 +11,8 @@ class MemoryLedger {
  public:
   void add(const std::string& label, size_t bytes);
   void remove(const std::string& label, size_t bytes);
+  // From now on, peaks are those of what comes, and of what is there now.
+  void restartPeaks();
 
   const std::map<std::string, size_t>& peakBytesByLabel() const {
     return peakBytesByLabel_;

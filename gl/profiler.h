@@ -33,7 +33,7 @@ class Profiler {
     size_t prefixLength_ = 0;
   };
 
-  void enable() { enabled_ = true; }
+  void enable(bool enabled = true) { enabled_ = enabled; }       // between passes
   const std::vector<PassTime>& times() const { return times_; }  // in order of first end
   void reset() { times_.clear(); }
 

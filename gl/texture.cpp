@@ -68,6 +68,7 @@ GLint wrapping(Wrap wrap) {
 }
 
 GLenum targetOf(const TextureDescription& description) {
+  if (description.array) return GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
   if (description.samples > 0) return GL_TEXTURE_2D_MULTISAMPLE;
   return description.size.z > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D;
 }
@@ -80,6 +81,13 @@ GLint minification(Minify minify) {
                               GL_NEAREST_MIPMAP_LINEAR,
                               GL_LINEAR_MIPMAP_LINEAR};
   return values[static_cast<int>(minify)];
+}
+
+void checkLayers(const std::string& label, int layers) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limit);
+  if (layers > limit)
+    fail(ExitCode::Memory, "{}: {} layers, this device allows {}: use fewer", label, layers, limit);
 }
 
 void checkSize(const Device& device, const std::string& label, glm::ivec3 size) {
@@ -99,7 +107,8 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
       format_(description.format),
       target_(targetOf(description)),
       size_(description.size) {
-  checkSize(device, label_, size_);
+  if (description.array) checkLayers(label_, size_.z);
+  checkSize(device, label_, description.array ? glm::ivec3(size_.x, size_.y, 1) : size_);
   const FormatTraits format = traits(description.format);
   bytes_ = static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z) *
            format.bytes * static_cast<size_t>(std::max(description.samples, 1));
@@ -116,7 +125,11 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
   glBindTexture(target_, name);
   while (glGetError() != GL_NO_ERROR) {
   }
-  if (target_ == GL_TEXTURE_2D_MULTISAMPLE)
+  const bool multisample = description.samples > 0;
+  if (description.array)
+    glTexStorage3DMultisample(target_, description.samples, format.internal, size_.x, size_.y, size_.z,
+                              GL_TRUE);
+  else if (multisample)
     glTexStorage2DMultisample(target_, description.samples, format.internal, size_.x, size_.y, GL_TRUE);
   else if (target_ == GL_TEXTURE_3D)
     glTexStorage3D(target_, levels, format.internal, size_.x, size_.y, size_.z);
@@ -133,7 +146,7 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
       glTexSubImage2D(target_, 0, 0, 0, size_.x, size_.y, format.layout, format.type, texels.data());
     if (mipmaps) glGenerateMipmap(target_);
   }
-  if (target_ != GL_TEXTURE_2D_MULTISAMPLE) {
+  if (!multisample) {
     glTexParameteri(target_, GL_TEXTURE_MAG_FILTER, magnify);
     glTexParameteri(target_, GL_TEXTURE_MIN_FILTER, minify);
     glTexParameteri(target_, GL_TEXTURE_WRAP_S, wrapping(description.wrapS));
@@ -157,6 +170,10 @@ Texture& Texture::operator=(Texture&& other) noexcept {
 
 Texture::~Texture() {
   if (object_.name() != 0) ledger_->remove(label_, bytes_);
+}
+
+bool Texture::isArray() const {
+  return target_ == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
 }
 
 void Texture::bind(unsigned unit) const {
@@ -230,7 +247,7 @@ Framebuffer::Framebuffer(glm::ivec2 size, int samples, int layers) : size_(size)
               "a framebuffer is complete");
 }
 
-Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture* depth) {
+Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture* depth, int layer) {
   GLuint name = 0;
   glGenFramebuffers(1, &name);
   object_ = Object<deleteFramebuffer>(name);
@@ -238,7 +255,10 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture*
   std::vector<GLenum> buffers;
   for (const Texture* colour : colours) {
     buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
-    glFramebufferTexture(GL_DRAW_FRAMEBUFFER, buffers.back(), colour->name(), 0);
+    if (colour->isArray())
+      glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, buffers.back(), colour->name(), 0, layer);
+    else
+      glFramebufferTexture(GL_DRAW_FRAMEBUFFER, buffers.back(), colour->name(), 0);
     size_ = colour->size();
   }
   glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());

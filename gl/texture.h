@@ -1,4 +1,4 @@
-// Textures (2D, 2D array, 3D) and the framebuffers that draw into them.
+// Textures (2D, 3D, multisample and arrays of these) and the framebuffers that draw into them.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +46,8 @@ struct TextureDescription {
   std::optional<Minify> minify;  // as `filter`, without mipmaps, where none is given
   Wrap wrapS = Wrap::ClampToEdge;
   Wrap wrapT = Wrap::ClampToEdge;
-  int samples = 0;  // a pixel; 0: not a multisample texture (1 is one, with its sample in the middle)
+  int samples = 0;     // a pixel; 0: not a multisample texture (1 is one, with its sample in the middle)
+  bool array = false;  // of size.z multisample layers
 };
 
 class Texture {
@@ -63,6 +64,7 @@ class Texture {
   unsigned name() const { return object_.name(); }
   glm::ivec3 size() const { return size_; }
   Format format() const { return format_; }
+  bool isArray() const;
   size_t bytes() const { return bytes_; }
   void bind(unsigned unit) const;
   // For image loads, stores and atomics of shaders, in the texture's own format.
@@ -104,8 +106,9 @@ class Framebuffer {
   // `samples`: places in a pixel where coverage is told, 1: its centre. `layers`: for gl_Layer, 0: not
   // layered.
   explicit Framebuffer(glm::ivec2 size, int samples = 1, int layers = 0);
-  // Colour attachments in order, and a depth buffer, with a stencil or without, or nullptr.
-  Framebuffer(std::span<const Texture* const> colours, const Texture* depth);
+  // Colour attachments in order, and a depth buffer, with a stencil or without, or nullptr. `layer`: of
+  // colours that are arrays.
+  Framebuffer(std::span<const Texture* const> colours, const Texture* depth, int layer = 0);
 
   unsigned name() const { return object_.name(); }
   glm::ivec2 size() const { return size_; }

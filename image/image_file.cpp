@@ -18,7 +18,6 @@
 
 #include "base/file.h"
 #include "image/metrics.h"
-#include "image/tone_map.h"
 
 namespace sfumato::image {
 
@@ -150,13 +149,14 @@ OIIO::ImageSpec pngSpec(int width, int height, int channels) {
   return spec;
 }
 
-void writePng(const fs::path& path, const Image& image, const Metadata& metadata) {
+void writePng(const fs::path& path, const Image& image, const Metadata& metadata,
+              const ToneMapping& toneMapping) {
   Image stripe(image.width, stripeRows, image.channels);
   std::vector<uint8_t> bytes(stripe.values.size());
   write(path, pngSpec(image.width, image.height, image.channels), metadata, OIIO::TypeDesc::UINT8,
         [&](int first, int count) {
           std::copy(image.pixel(0, first), image.pixel(0, first + count), stripe.pixel(0, 0));
-          const Image screen = toneMap(stripe);
+          const Image screen = toneMap(stripe, toneMapping);
           std::transform(screen.values.begin(), screen.values.end(), bytes.begin(), [](float value) {
             return value > 0.f ? static_cast<uint8_t>(std::lround(std::min(value, 1.f) * 255.f)) : uint8_t{0};
           });
@@ -364,6 +364,10 @@ Image readFlattened(OIIO::ImageInput& input, const fs::path& path) {
 
 }  // namespace
 
+bool readsAndWritesImages() {
+  return true;
+}
+
 Image readImage(const fs::path& path) {
   const auto input = openImage(path);
   if (input->spec().deep) return readFlattened(*input, path);
@@ -391,12 +395,13 @@ Layer readLayer(const fs::path& path, const std::string& name) {
   return layer;
 }
 
-void writeImage(const fs::path& path, const Image& image, const Metadata& metadata, bool fullFloat) {
+void writeImage(const fs::path& path, const Image& image, const Metadata& metadata, bool fullFloat,
+                const ToneMapping& toneMapping) {
   base::check(image.channels == 3 || image.channels == 4, "an image to write has 3 or 4 channels");
   if (endingOf(path) == Ending::Exr)
     writeExr(path, image, {}, metadata, fullFloat);
   else
-    writePng(path, image, metadata);
+    writePng(path, image, metadata, toneMapping);
 }
 
 void writeLayers(const fs::path& path, const Image& image, std::span<const Layer> layers,
@@ -496,11 +501,15 @@ namespace {
 
 }  // namespace
 
+bool readsAndWritesImages() {
+  return false;
+}
+
 Image readImage(const std::filesystem::path& path) {
   failWithoutOpenImageIO(path.string());
 }
 
-void writeImage(const std::filesystem::path& path, const Image&, const Metadata&, bool) {
+void writeImage(const std::filesystem::path& path, const Image&, const Metadata&, bool, const ToneMapping&) {
   failWithoutOpenImageIO(path.string());
 }
 

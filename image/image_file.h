@@ -11,8 +11,12 @@
 
 #include "image/deep_image.h"
 #include "image/image.h"
+#include "image/tone_map.h"
 
 namespace sfumato::image {
+
+// Whether this build has it.
+bool readsAndWritesImages();
 
 // Reads any image that OpenImageIO knows as float, linear where the file says how it is encoded to be linear
 // (EXR), else as stored; of one with layers only R, G, B and A; of a deep one R, G and B, flattened. Throws
@@ -25,7 +29,7 @@ Image readImage(const std::filesystem::path& path);
 // the same image makes the same bytes. Beside, then renamed: a failure (Input) leaves no file. Other endings
 // are a Usage error.
 void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
-                bool fullFloat = false);
+                bool fullFloat = false, const ToneMapping& toneMapping = {});
 
 // Writes an `.exr` as writeImage() does, with layers beside the image: channels named "layer.channel", as
 // floats.

@@ -84,6 +84,17 @@ std::string tableText(const Table& table) {
       escapedForMarkup(table.title), tableRow(table.header, "th"), rows, escapedForMarkup(table.caption));
 }
 
+std::string picturesText(const Pictures& part) {
+  std::string pictures;
+  for (const Pictures::Picture& picture : part.pictures)
+    pictures +=
+        fmt::format("<div><img src=\"{}\" alt=\"{}\"><p>{}</p></div>\n", escapedForMarkup(picture.file),
+                    escapedForMarkup(picture.label), escapedForMarkup(picture.label));
+  return fmt::format(
+      "<section><h2>{}</h2><div class=\"pictures\">\n{}</div><p class=\"caption\">{}</p></section>\n",
+      escapedForMarkup(part.title), pictures, escapedForMarkup(part.caption));
+}
+
 // The colours of CountMaps, from none to most.
 Json palette() {
   Json colours = Json::array();
@@ -106,6 +117,8 @@ std::string reportPage(const Report& report) {
   for (const auto& part : report.parts) {
     if (const auto* table = std::get_if<Table>(&part)) {
       body += tableText(*table);
+    } else if (const auto* pictures = std::get_if<Pictures>(&part)) {
+      body += picturesText(*pictures);
     } else if (const auto* plot = std::get_if<Plot>(&part)) {
       body += figure(plot->title, plot->caption);
       drawn.push_back(toJson(*plot));

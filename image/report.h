@@ -1,5 +1,5 @@
 // Reports for a browser: one HTML page that holds its plots, their library (Chart.js) and its data, and opens
-// without a network.
+// without a network. Pictures alone are files beside it.
 #pragma once
 
 #include <cstdint>
@@ -47,12 +47,23 @@ struct Table {
   std::vector<size_t> highlighted;             // rows in which something is wrong
 };
 
+// Image files beside the page, side by side.
+struct Pictures {
+  struct Picture {
+    std::string file;  // relative to the page
+    std::string label;
+  };
+  std::string title;
+  std::string caption;
+  std::vector<Picture> pictures;
+};
+
 struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  // name and value, in the page's head
   std::string verdict;                                     // one line
   bool good = true;                                        // whether the verdict is
-  std::vector<std::variant<Plot, CountMap, Table>> parts;
+  std::vector<std::variant<Plot, CountMap, Table, Pictures>> parts;
 };
 
 // Throws Usage when the program was built without Chart.js.

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "lights/light_reach.h"
+#include "lights/light_scissor.h"
 
 namespace sfumato::lights {
 
@@ -14,11 +15,6 @@ using glm::dvec3;
 namespace {
 
 constexpr int mostTried = 24;  // cells along a side
-
-struct Interval {
-  double low;
-  double high;
-};
 
 // What a light fills in view space: a ball, or of a narrow spot the part of it within a cone.
 class LightVolume {
@@ -37,20 +33,8 @@ class LightVolume {
     apex_ = centre_ - axis_ * (off / std::max(std::sin(light.outerCone), 1e-4));
   }
 
-  // Where the ball is seen along an axis of the image, at depth 1 or anywhere: all of it where the view's
-  // plane cuts the ball.
-  Interval extent(int axis) const {
-    const double whole = camera_.halfExtent[axis];
-    if (orthographic()) return {centre_[axis] - radius_, centre_[axis] + radius_};
-    const double distance = std::hypot(centre_[axis], centre_.z);
-    if (distance <= radius_) return {-whole, whole};
-    const double middle = std::atan2(centre_[axis], -centre_.z);
-    const double spread = std::asin(radius_ / distance);
-    constexpr double ahead = 1.5707;  // a little less than a right angle
-    if (middle - spread > ahead || middle + spread < -ahead) return {whole, -whole};  // behind
-    return {middle - spread < -ahead ? -whole : std::tan(middle - spread),
-            middle + spread > ahead ? whole : std::tan(middle + spread)};
-  }
+  // Where the ball is seen along an axis of the image.
+  Extent extent(int axis) const { return extentOf({centre_, radius_}, axis, orthographic()); }
 
   // Whether a ray meets the volume between the camera's near and far depth.
   bool meets(const dvec2& plane) const {
@@ -62,8 +46,8 @@ class LightVolume {
                           glm::dot(start + middle * perDepth - centre_, start + middle * perDepth - centre_);
     if (inside < 0) return false;
     const double half = std::sqrt(inside) / length;
-    const Interval within = {std::max<double>(middle - half, camera_.depthRange.x),
-                             std::min<double>(middle + half, camera_.depthRange.y)};
+    const Extent within = {std::max<double>(middle - half, camera_.depthRange.x),
+                           std::min<double>(middle + half, camera_.depthRange.y)};
     return within.low <= within.high && (cosine_ < 0 || meetsCone(start, perDepth, within));
   }
 
@@ -73,7 +57,7 @@ class LightVolume {
   bool orthographic() const { return camera_.halfExtent.z != 0.f; }
 
   // How far a point is inside the cone, x . axis - |x| cosine, has one maximum along a ray.
-  bool meetsCone(const dvec3& start, const dvec3& perDepth, const Interval& within) const {
+  bool meetsCone(const dvec3& start, const dvec3& perDepth, const Extent& within) const {
     const double length = glm::length(perDepth);
     const dvec3 from = start - apex_;
     const double nearest = -glm::dot(from, perDepth) / (length * length);  // depth
@@ -102,7 +86,7 @@ struct CellRange {
 };
 
 // Those within an extent; cells are as wide at the image's edge as anywhere.
-CellRange cellsWithin(const Interval& extent, double halfExtent, int pixels) {
+CellRange cellsWithin(const Extent& extent, double halfExtent, int pixels) {
   const auto cellOf = [&](double place) {
     const double cell = std::floor((place / halfExtent + 1.0) * 0.5 * pixels / cellSide);
     return static_cast<int>(std::clamp(cell, -1.0, static_cast<double>(cellsAlong(pixels))));

@@ -1,6 +1,8 @@
 #include "pipelines/aovs_gpu.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <limits>
 
 #include "gl/commands.h"
@@ -30,6 +32,22 @@ glm::vec3 valueOf(Aov aov, const shared::AovPixel& pixel) {
     default:
       return count(pixel.shadowNodes);
   }
+}
+
+// As shaders/shared/math.glsl packs it (Cigolle et al. 2014).
+glm::vec3 unitFromOctahedral(glm::vec2 p) {
+  glm::vec3 n(p, 1.f - std::abs(p.x) - std::abs(p.y));
+  const float fold = std::max(-n.z, 0.f);
+  n.x += n.x >= 0.f ? -fold : fold;
+  n.y += n.y >= 0.f ? -fold : fold;
+  return glm::normalize(n);
+}
+
+template <typename Texel>
+std::vector<Texel> texelsOf(const gl::Texture& texture) {
+  std::vector<Texel> texels(texture.bytes() / sizeof(Texel));
+  texture.read(std::as_writable_bytes(std::span(texels)));
+  return texels;
 }
 
 }  // namespace
@@ -66,6 +84,31 @@ void drawAovs(gl::Device& device, const AovInputs& inputs, AovImages& images) {
       const glm::ivec2 place = window.placeOf(i, image.height);
       const glm::vec3 value = valueOf(aov, values[i]);
       std::copy_n(&value.x, image.channels, image.pixel(place.x, place.y));
+    }
+  }
+}
+
+void drawSurfaceAovs(const SceneGpu& scene, const scene::Camera& camera, AovImages& images) {
+  const gl::Profiler::Scope time(scene.device().profiler(), "surfaces for edges");
+  image::Image& depths = images.at(Aov::Depth);
+  image::Image& normals = images.at(Aov::Normal);
+  const FrameView whole = viewOf(scene.scene(), camera, depths.width, depths.height);
+  gl::Buffer view(scene.device(), "camera view", sizeof(shared::ViewParams));
+  for (const Tile& tile : tilesOf(depths.width, depths.height)) {
+    shared::ViewParams params = whole.params;
+    params.tile = params.window = tile.corners();
+    view.writeValue(params);
+    const GBuffer gbuffer =
+        drawGBuffer(scene.device(), {scene.geometry(), view, depths.width, depths.height, 1, tile, false});
+    const auto depthTexels = texelsOf<float>(gbuffer.depth);
+    const auto surfaceTexels = texelsOf<glm::uvec4>(gbuffer.surface0);
+    for (size_t i = 0; i < tile.pixels(); ++i) {
+      const bool seen = depthTexels[i] < static_cast<float>(NOTHING_SEEN);
+      const glm::vec3 normal =
+          seen ? unitFromOctahedral(glm::unpackSnorm2x16(surfaceTexels[i].x)) : glm::vec3(0.f);
+      const glm::ivec2 place = tile.placeOf(i, depths.height);
+      *depths.pixel(place.x, place.y) = seen ? depthTexels[i] : std::numeric_limits<float>::infinity();
+      std::copy_n(&normal.x, 3, normals.pixel(place.x, place.y));
     }
   }
 }

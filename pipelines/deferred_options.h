@@ -2,6 +2,10 @@
 // them.
 #pragma once
 
+#include <optional>
+
+#include "base/choice.h"
+
 namespace sfumato::pipelines {
 
 // None: every light reaches everything. Opaque, Interlaced: shadow maps of a depth, or of a depth and a
@@ -21,13 +25,20 @@ enum class Storage { Exact, Table };
 enum class Passes { One, PerObject };
 
 struct DeferredOptions {
-  ShadowKind shadows = ShadowKind::Deep;
+  std::optional<ShadowKind> shadows;  // none: those that the pipeline is known for
   Interlace interlace = Interlace::Lines;
   Storage storage = Storage::Exact;
   Passes passes = Passes::PerObject;
+  int samples =
+      0;  // of a pixel that hold fragments in one pass of the stencil-routed pipeline; 0: all there are
   int layers = 0;  // translucent ones that are peeled at most; 0: until nothing is left
   double refraction =
       0;  // how far a normal shifts what is seen through a surface, part of the image's height
 };
+
+const base::Choice<ShadowKind>& shadowKinds();  // "none", "opaque", "interlaced", "deep"
+const base::Choice<Interlace>& interlaces();    // "lines", "checkerboard", "full"
+const base::Choice<Storage>& storages();        // "exact", "table"
+const base::Choice<Passes>& passesNames();      // "one", "object"
 
 }  // namespace sfumato::pipelines

@@ -109,6 +109,7 @@ void GeometryGpu::uploadMeshes(gl::Device& device, const Scene& scene) {
                    [&](size_t a, size_t b) { return scene.instances[a].mesh < scene.instances[b].mesh; });
   std::vector<shared::DrawData> drawData;
   int objects = 0;
+  instances_.resize(scene.instances.size());
   for (const size_t number : order) {
     const Instance& instance = scene.instances[number];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
@@ -125,6 +126,7 @@ void GeometryGpu::uploadMeshes(gl::Device& device, const Scene& scene) {
       const bool translucent = material.translucent();
       draws_.push_back({range, mesh.material, translucent, translucent || !material.shadowSelf});
     }
+    instances_[number] = InstancePlace{draws_.size() - 1, drawData.size()};
     shared::DrawData data{};
     data.worldFromObject = instance.worldFromObject;
     data.normalFromObject = glm::mat4(glm::mat3(glm::transpose(glm::inverse(instance.worldFromObject))));
@@ -193,6 +195,33 @@ bool GeometryGpu::has(Layer layer) const {
 
 gl::ShaderDefines GeometryGpu::defines() const {
   return textures_.size() > 1 ? gl::ShaderDefines{{"TEXTURES", "1"}} : gl::ShaderDefines{};
+}
+
+const GeometryGpu::Draw* GeometryGpu::drawOf(size_t instance) const {
+  return instances_[instance] ? &draws_[instances_[instance]->draw] : nullptr;
+}
+
+bool GeometryGpu::isTranslucent(size_t instance) const {
+  const Draw* draw = drawOf(instance);
+  return draw != nullptr && draw->translucent;
+}
+
+bool GeometryGpu::isDoubleSided(size_t instance) const {
+  const Draw* draw = drawOf(instance);
+  return draw != nullptr && materials_[static_cast<size_t>(draw->material)].doubleSided;
+}
+
+void GeometryGpu::drawInstance(size_t instance, gl::Cull cull) const {
+  const Draw* draw = drawOf(instance);
+  if (draw == nullptr) return;
+  drawData_.bindStorage(STORAGE_DRAWS);
+  materialData_.bindStorage(STORAGE_MATERIALS);
+  bindTextures(draw->material);
+  gl::setCull(cull);
+  gl::IndexedRange range = draw->range;
+  range.firstInstance = instances_[instance]->number;
+  range.instances = 1;
+  gl::drawIndexed(vertexArray_, range);
 }
 
 void GeometryGpu::draw(Layer layer, bool cullBackFaces) const {

@@ -1,6 +1,7 @@
 // Meshes, materials and textures of a scene on the GPU, and the draws over them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gl/buffer.h"
@@ -26,6 +27,10 @@ class GeometryGpu {
   // shaders/scene/surface.vert. `cullBackFaces`: of materials that are not double-sided.
   void draw(Layer layer, bool cullBackFaces) const;
   bool has(Layer layer) const;
+  // The same for one instance of the scene, by its number there, and the faces that are not culled.
+  void drawInstance(size_t instance, gl::Cull cull) const;
+  bool isTranslucent(size_t instance) const;
+  bool isDoubleSided(size_t instance) const;
   // For the programs that it is drawn with.
   gl::ShaderDefines defines() const;
   bool hasShadowOnce() const { return hasShadowOnce_; }  // any material
@@ -50,7 +55,15 @@ class GeometryGpu {
     bool doubleSided = false;
   };
 
+  // Where an instance of the scene is drawn.
+  struct InstancePlace {
+    size_t draw = 0;    // index in draws_
+    size_t number = 0;  // of the instance in drawData_
+  };
+
   std::vector<Draw> draws_;
+  const Draw* drawOf(size_t instance) const;
+  std::vector<std::optional<InstancePlace>> instances_;  // none: nothing to draw
   std::vector<MaterialTextures> materials_;
   std::vector<gl::Texture> textures_;  // the first one is a white texel
   gl::Buffer vertices_;

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
+#include "pipelines/ambient_occlusion_gpu.h"
 #include "pipelines/aovs_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
@@ -30,8 +31,8 @@ std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
   return faces;
 }
 
-gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, int scatteringOctaves) {
-  return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(scatteringOctaves));
+gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, const Quality& quality) {
+  return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(quality));
 }
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -57,6 +58,7 @@ struct ResolveInputs {
   const deepshadow::Maps& shadows;
   const SceneGpu& scene;
   const Quality& quality;
+  const AmbientOcclusion* occlusion;  // of the image, or null
   Tile window;
   bool countLookups;
   DeepLimits deepLimits;
@@ -77,6 +79,7 @@ shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
                   static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
   params.options = {1, tapsOf(inputs.quality.surfaceShadows) + 8 * tapsOf(inputs.quality.smokeShadows),
                     inputs.lights.directionalLights(), 0};
+  params.ambient = glm::vec4(inputs.scene.scene().ambient, inputs.quality.ambientOcclusion.radius);
   setSamples(params, inputs.gbuffer);
   return params;
 }
@@ -223,7 +226,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality.scatteringOctaves);
+  gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality);
   SmokeBlocks blocks;
   if (inputs.quality.halfResolutionSmoke && !inputs.scene.volumes().empty() && !frame.deep) {
     blocks = marchBlocks(device, inputs, defines, frame.statistics);
@@ -232,6 +235,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
   if (inputs.quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
   if (frame.deep) defines.emplace_back("DEEP", "1");
+  if (inputs.occlusion) defines = gl::joined(defines, inputs.occlusion->defines());
   const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   Walk walk(device, inputs, rays);
@@ -247,6 +251,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
       base::check(dispatches < maxResolveDispatches, "the resolve ends");
       lookups.bindStorage(STORAGE_LOOKUPS);
       blocks.texture.bind(TEXTURE_SMOKE_BLOCKS);
+      if (inputs.occlusion) inputs.occlusion->bind();
       counted = walk.dispatch(program, params);
       frame.statistics.cutWalks += counted.boundHit;
       ++dispatches;
@@ -269,7 +274,8 @@ struct TileInputs {
   const SceneGpu& scene;
   const deepshadow::Maps& shadows;
   const Quality& quality;
-  shared::ViewParams view;  // of the whole image
+  const AmbientOcclusion* occlusion;  // or null
+  shared::ViewParams view;            // of the whole image
   int width = 0;
   int height = 0;
   bool countLookups = false;
@@ -352,7 +358,7 @@ class TilePainter {
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.scene,
-                  inputs_.quality, window, inputs_.countLookups, inputs_.deepLimits},
+                  inputs_.quality, inputs_.occlusion, window, inputs_.countLookups, inputs_.deepLimits},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -387,6 +393,25 @@ class TilePainter {
   Frame& frame_;
 };
 
+// Of the whole image at once, from a G-buffer of its own: a tile's surfaces are occluded by those of others.
+std::optional<AmbientOcclusion> occlusionOf(const SceneGpu& scene, const FrameView& view,
+                                            const AmbientOcclusionOptions& options) {
+  if (options.size == OcclusionSize::Off || scene.scene().ambient == glm::dvec3(0)) return std::nullopt;
+  gl::Device& device = scene.device();
+  gl::Buffer viewBlock(device, "camera view", sizeof(shared::ViewParams));
+  shared::ViewParams params = view.params;
+  params.tile = params.window = {0, 0, view.width, view.height};
+  viewBlock.writeValue(params);
+  const GBuffer gbuffer = [&] {
+    const Profiler::Scope time(device.profiler(), "occlusion G-buffer");
+    return drawGBuffer(
+        device,
+        {.geometry = scene.geometry(), .view = viewBlock, .width = view.width, .height = view.height});
+  }();
+  return drawAmbientOcclusion(device,
+                              {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height, options});
+}
+
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
@@ -395,7 +420,7 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
     : scene_(device, scene, media, gridOptions) {
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
-  device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), 0));
+  device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), Quality{}));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
@@ -410,7 +435,9 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   }
   for (const size_t light : options.deepShadows)
     frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
-  const TileInputs inputs{scene_,    shadows, quality, view.params, width, height, options.countLookups,
+  const auto occlusion = occlusionOf(scene_, view, quality.ambientOcclusion);
+  const TileInputs inputs{scene_,      shadows, quality, occlusion ? &*occlusion : nullptr,
+                          view.params, width,   height,  options.countLookups,
                           deepLimits};
   TilePainter painter(scene_.device(), inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {

@@ -22,6 +22,7 @@ class LinkedListsPipeline : public Pipeline {
   // or the lists of a single pixel, are over the device's limits.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
+  const SceneGpu& scene() const override { return scene_; }
 
  private:
   SceneGpu scene_;

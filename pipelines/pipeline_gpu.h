@@ -8,6 +8,7 @@
 #include "gl/device.h"
 #include "pipelines/frame_gpu.h"
 #include "pipelines/quality.h"
+#include "pipelines/scene_gpu.h"
 #include "scene/scene.h"
 #include "volumes/grid.h"
 #include "volumes/volumes_gpu.h"
@@ -19,6 +20,7 @@ class Pipeline {
   virtual ~Pipeline() = default;
   virtual Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                        const FrameOptions& options = {}) = 0;
+  virtual const SceneGpu& scene() const = 0;
 };
 
 // The one of a name (pipelines/pipeline_names.h), with the scene uploaded; the scene must outlive it.

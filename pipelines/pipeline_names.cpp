@@ -9,7 +9,8 @@
 namespace sfumato::pipelines {
 
 const std::vector<std::string>& pipelineNames() {
-  static const std::vector<std::string> names = {"lund"};
+  static const std::vector<std::string> names = {"lund",         "interlaced", "peeling",       "forward",
+                                                 "forward-mask", "reentrant",  "stencil-routed"};
   return names;
 }
 

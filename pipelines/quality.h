@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lists/strategy.h"
+#include "pipelines/ambient_occlusion.h"
 #include "pipelines/deferred_options.h"
 
 namespace sfumato::pipelines {
@@ -40,6 +41,7 @@ struct Quality {
   // How all lists are built. The budget is for those that are there at one time: of a window of a light's
   // shadow map, or of the lights and surfaces of a window of the image.
   lists::ListOptions lists{};
+  AmbientOcclusionOptions ambientOcclusion{};
   DeferredOptions deferred{};
 };
 

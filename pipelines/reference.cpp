@@ -196,7 +196,7 @@ class Tracer {
   glm::dvec3 leaving(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                      const Coverage& coverage) const {
     const Reflector reflector = reflectorAt(scene_, geometry_.material(hit), point, coverage);
-    glm::dvec3 radiance = reflector.emitted;
+    glm::dvec3 radiance = reflector.emitted + scene_.ambient * ambientAlbedo(reflector);
     for (const Light& light : scene_.lights) {
       const Illumination arriving = illuminate(light, point.position);
       if (glm::dot(point.geometricNormal, arriving.toLight) <= 0) continue;

@@ -32,10 +32,10 @@ struct ReferenceFrame {
 // Linear RGB radiance. Per pixel: all surfaces along the ray, sorted, each lit (Lambert and GGX as glTF has
 // them) and letting t = 1 - a (1 - tau b) through; between them single scattering in the media; for every lit
 // point a shadow ray to each light through all surfaces and media, as their materials say that they shadow.
-// No ambient light, no bounces; the background is 0. Back faces of materials that are not double-sided are
-// not seen, but shadow. A surface gathers light on the side that is seen, where both its triangle and its
-// shading normal face the light; its shadow rays start 1e-6 of the scene's extent off it. Throws Bug unless
-// steps and samples are positive.
+// Ambient light reaches all surfaces alike (Scene::ambient); no bounces; the background is 0. Back faces of
+// materials that are not double-sided are not seen, but shadow. A surface gathers light on the side that is
+// seen, where both its triangle and its shading normal face the light; its shadow rays start 1e-6 of the
+// scene's extent off it. Throws Bug unless steps and samples are positive.
 image::Image renderReference(const scene::Scene& scene, const scene::Camera& camera,
                              std::span<const volumes::Medium> media, const ReferenceOptions& options);
 

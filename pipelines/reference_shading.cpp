@@ -158,6 +158,11 @@ glm::dvec3 brdf(const Reflector& reflector, const glm::dvec3& toViewer, const gl
   return reflector.diffuse / std::numbers::pi * (1 - largest(f)) + reflector.alpha * d * v * f;
 }
 
+glm::dvec3 ambientAlbedo(const Reflector& reflector) {
+  const glm::dvec3 mirrored = reflector.alpha * reflector.specular0;
+  return reflector.diffuse * (1 - largest(mirrored)) + mirrored;
+}
+
 Illumination illuminate(const Light& light, const glm::dvec3& pWorld) {
   if (light.type == LightType::Directional) return {-light.direction, scene::infinity, light.intensity};
   const glm::dvec3 path = light.position - pWorld;

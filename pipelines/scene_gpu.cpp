@@ -50,44 +50,50 @@ SceneGpu::SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<cons
   for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
 }
 
-gl::ShaderDefines SceneGpu::lightingDefines(int scatteringOctaves) const {
+gl::ShaderDefines SceneGpu::lightingDefines(const Quality& quality) const {
   gl::ShaderDefines defines;
   if (geometry_.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
+  if (scene_.ambient != glm::dvec3(0)) defines.emplace_back("AMBIENT", "1");
   if (volumes_.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
   if (volumes_.burning()) defines.emplace_back("FIRE", "1");
-  if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
+  if (quality.smokeShadows == ShadowFilter::Nearest) defines.emplace_back("NEAREST_SMOKE_SHADOWS", "1");
+  if (quality.scatteringOctaves > 0)
+    defines.emplace_back("SCATTER_OCTAVES", std::to_string(quality.scatteringOctaves));
   return gl::joined(defines, volumes_.defines());
+}
+
+ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& quality) const {
+  scene::Seen all;
+  all.add(scene::visibleParts(mediaBoxes_, view.camera, static_cast<double>(view.width) / view.height));
+  all.add(view.seen);
+  deepshadow::Casters casters{.opaque = [this] { geometry_.draw(Layer::ShadowDepth, false); },
+                              .once = geometry_.hasShadowOnce(),
+                              .notSelf = geometry_.hasNotSelf(),
+                              .defines = geometry_.defines()};
+  if (geometry_.has(Layer::ShadowLists))
+    casters.listed = [this] { geometry_.draw(Layer::ShadowLists, false); };
+  return {casters, all.points, scene::boundingPoints(scene_, mediaBoxes_),
+          shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality)};
 }
 
 deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& quality,
                                         size_t linkedNodes) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
-  scene::Seen all;
-  all.add(scene::visibleParts(mediaBoxes_, view.camera, static_cast<double>(view.width) / view.height));
-  all.add(view.seen);
-  const auto castingPoints = scene::boundingPoints(scene_, mediaBoxes_);
-  deepshadow::Casters casters{.opaque = [&] { geometry_.draw(Layer::ShadowDepth, false); },
-                              .once = geometry_.hasShadowOnce(),
-                              .notSelf = geometry_.hasNotSelf(),
-                              .defines = geometry_.defines()};
-  if (geometry_.has(Layer::ShadowLists)) casters.listed = [&] { geometry_.draw(Layer::ShadowLists, false); };
-  return deepshadow::Maps(
-      device_,
-      {.lights = scene_.lights,
-       .casters = casters,
-       .volumes = volumes_,
-       .receivers = all.points,
-       .castingPoints = castingPoints,
-       .plan = {shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality),
-                quality.shadowError},
-       .budget = {.bytes = quality.shadowMemory,
-                  .lowerResolution = !quality.exactShadowResolution,
-                  .loosenError = !quality.exactShadowError},
-       .stepVoxels = quality.stepVoxels,
-       .lists = quality.lists,
-       .linkedSmokeNodes = quality.walkedSmokeNodes,
-       .linkedNodes = linkedNodes});
+  const ShadowInputs inputs = shadowInputs(view, quality);
+  return deepshadow::Maps(device_, {.lights = scene_.lights,
+                                    .casters = inputs.casters,
+                                    .volumes = volumes_,
+                                    .receivers = inputs.receivers,
+                                    .castingPoints = inputs.castingPoints,
+                                    .plan = {inputs.resolutions, quality.shadowError},
+                                    .budget = {.bytes = quality.shadowMemory,
+                                               .lowerResolution = !quality.exactShadowResolution,
+                                               .loosenError = !quality.exactShadowError},
+                                    .stepVoxels = quality.stepVoxels,
+                                    .lists = quality.lists,
+                                    .linkedSmokeNodes = quality.walkedSmokeNodes,
+                                    .linkedNodes = linkedNodes});
 }
 
 ShadowFigures figuresOf(const deepshadow::Maps& shadows) {

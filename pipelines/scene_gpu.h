@@ -30,6 +30,14 @@ struct FrameView {
 
 FrameView viewOf(const scene::Scene& scene, const scene::Camera& camera, int width, int height);
 
+// What the shadow maps of a view are built from.
+struct ShadowInputs {
+  deepshadow::Casters casters;
+  std::vector<glm::dvec3> receivers;      // their hull holds what is seen
+  std::vector<glm::dvec3> castingPoints;  // and theirs what casts shadows
+  std::vector<int> resolutions;           // of each light: shadow_resolution.h
+};
+
 class SceneGpu {
  public:
   // Uploads what the scene holds. The scene must outlive it.
@@ -43,7 +51,8 @@ class SceneGpu {
   const volumes::VolumesGpu& volumes() const { return volumes_; }
 
   // Of programs that light surfaces or march through smoke.
-  gl::ShaderDefines lightingDefines(int scatteringOctaves) const;
+  gl::ShaderDefines lightingDefines(const Quality& quality) const;
+  ShadowInputs shadowInputs(const FrameView& view, const Quality& quality) const;
   // `linkedNodes`: see deepshadow::MapInputs.
   deepshadow::Maps buildShadows(const FrameView& view, const Quality& quality, size_t linkedNodes = 0) const;
 

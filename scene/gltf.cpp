@@ -729,6 +729,16 @@ bool fitsFloat(const glm::dmat4& matrix) {
   return true;
 }
 
+// Of the scene that is read, where there is any.
+int sceneNumber(const Model& model) {
+  return model.defaultScene == -1 ? 0 : model.defaultScene;
+}
+
+std::string sceneLabel(const Model& model) {
+  const auto number = static_cast<size_t>(sceneNumber(model));
+  return label("scene", number, model.scenes[number].name);
+}
+
 // Which nodes are drawn, parents before children, and where they stand.
 class NodeGraph {
  public:
@@ -796,9 +806,8 @@ class NodeGraph {
         if (parents_[i] == none) roots.push_back(i);
       return roots;
     }
-    const int chosen = model_.defaultScene == -1 ? 0 : model_.defaultScene;
-    const tinygltf::Scene& scene = faults_.at(model_.scenes, chosen, "scene", "scene");
-    const std::string where = label("scene", static_cast<size_t>(chosen), scene.name);
+    const tinygltf::Scene& scene = faults_.at(model_.scenes, sceneNumber(model_), "scene", "scene");
+    const std::string where = sceneLabel(model_);
     for (const int node : scene.nodes) {
       faults_.at(model_.nodes, node, where, "node");
       const auto root = static_cast<size_t>(node);
@@ -1427,6 +1436,16 @@ VolumePlacement readVolume(const Faults& faults, const Value& extras, const glm:
   return volume;
 }
 
+// Extras "ambient" of the scene.
+glm::dvec3 readAmbient(const Faults& faults, const Model& model) {
+  if (model.scenes.empty()) return glm::dvec3(0);
+  const Value& extras = model.scenes[static_cast<size_t>(sceneNumber(model))].extras;
+  const std::string where = sceneLabel(model);
+  const glm::dvec3 ambient = numbers(faults, extras, "ambient", glm::dvec3(0), where);
+  for (int c = 0; c < 3; ++c) faults.inRange(ambient[c], 0, 1e6, where, "ambient");
+  return ambient;
+}
+
 Scene convert(Model model, const fs::path& path, std::optional<double> seconds, Faults& faults) {
   checkExtensions(model, faults);
   Scene scene;
@@ -1457,6 +1476,7 @@ Scene convert(Model model, const fs::path& path, std::optional<double> seconds, 
       scene.volumes.push_back(
           readVolume(faults, node.extras, placed.worldFromNode, path.parent_path(), where));
   }
+  scene.ambient = readAmbient(faults, model);  // the scene is one that exists: its nodes were read
   checkExtent(faults, scene);
   return scene;
 }

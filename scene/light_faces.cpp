@@ -6,6 +6,10 @@ bool isNarrowSpot(const lights::Light& light) {
   return light.type == lights::LightType::Spot && light.outerCone <= deepshadow::widestCone;
 }
 
+int faceCount(const lights::Light& light) {
+  return light.type == lights::LightType::Directional || isNarrowSpot(light) ? 1 : 6;
+}
+
 std::vector<deepshadow::FaceProjection> facesOf(const lights::Light& light, int resolution,
                                                 std::span<const glm::dvec3> receivers,
                                                 std::span<const glm::dvec3> castingPoints) {

@@ -12,6 +12,7 @@ namespace sfumato::scene {
 
 // Whether a spot's cone is narrow enough for one face.
 bool isNarrowSpot(const lights::Light& light);
+int faceCount(const lights::Light& light);  // 1, or 6 of a cube
 
 // The faces of a light at a resolution; wide spots get those of a point light. See shadow_faces.h.
 std::vector<deepshadow::FaceProjection> facesOf(const lights::Light& light, int resolution,

@@ -132,6 +132,11 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   std::vector<VolumePlacement> volumes;
+  // Radiance that arrives from all directions at once, each channel >= 0. A surface returns
+  // ambient * (diffuse * (1 - max f0) + f0) of it, f0 weighted by alpha, whatever it looks like from aside: a
+  // white one as much as arrives, a metal its colour. Nothing shadows it but what --ssao finds; smoke
+  // scatters none of it, and the background stays black.
+  glm::dvec3 ambient{0};
 };
 
 }  // namespace sfumato::scene

@@ -3,13 +3,10 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/linear_id.glsl"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ShadowPassParams params;
-};
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
 };
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
 layout(std430, binding = STORAGE_SHADOW_TEXELS) buffer Texels {

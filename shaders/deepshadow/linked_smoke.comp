@@ -4,14 +4,11 @@
 #include "shaders/shared/deepshadow.h"
 #include "shaders/lists/insert.glsl"
 #include "shaders/shared/linear_id.glsl"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 #include "shaders/volumes/media.glsl"
 
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ShadowPassParams params;
-};
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
 };
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
 

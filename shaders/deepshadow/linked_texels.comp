@@ -2,11 +2,8 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
 #include "shaders/shared/linear_id.glsl"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std430, binding = STORAGE_LIST_HEADS) readonly buffer Heads {
   uint listHeads[];
 };

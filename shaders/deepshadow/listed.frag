@@ -3,19 +3,9 @@
 #define LIST_PAYLOAD ShadowNode
 #include "shaders/shared/deepshadow.h"
 #include "shaders/lists/insert.glsl"
-#include "shaders/scene/surface.glsl"
+#include "shaders/deepshadow/way_through.glsl"
 
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
-
-// How much longer the way through a thin shell is than its thickness, as far as the material counts it.
-float wayThrough() {
-  MaterialData material = materials[materialNumber()];
-  if (material.shadow.x == 0.0) return 1.0;
-  vec3 along = view.halfExtent.z != 0.0 ? vec3(0.0, 0.0, -1.0) : normalize(vPositionView);
-  vec3 n = shadingNormal(material, normalize(vNormalWorld));
-  float cosine = max(abs(dot(n, mat3(view.worldFromView) * along)), 0.05);
-  return 1.0 + material.shadow.x * (1.0 / cosine - 1.0);
-}
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);

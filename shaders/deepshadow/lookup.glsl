@@ -1,11 +1,7 @@
 // How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built. VOLUME_COUNT is
-// defined when there is smoke.
-#include "shaders/shared/bindings.h"
-#include "shaders/shared/deepshadow.h"
+// defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel.
+#include "shaders/deepshadow/faces.glsl"
 
-layout(std430, binding = STORAGE_SHADOW_FACES) readonly buffer Faces {
-  ShadowFace shadowFaces[];
-};
 // As buffer textures, because all maps together may be larger than one storage block.
 layout(binding = TEXTURE_SHADOW_TEXELS) uniform usamplerBuffer shadowTexels;  // ShadowTexel
 #ifndef WALK_LISTS
@@ -84,22 +80,6 @@ vec3 texelTransmittance(uint number, float depth) {
   return depth > texel.opaqueDepth ? vec3(0.0) : runTransmittance(texel, depth, vec3(0.0));
 }
 
-// Of a light's `faces` (1, or the 6 of a cube: +x -x +y -y +z -z) the one that sees a point `toPoint` away from it.
-int faceTowards(int faces, vec3 toPoint) {
-  if (faces == 1) return 0;
-  vec3 size = abs(toPoint);
-  int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-  return axis * 2 + (toPoint[axis] < 0.0 ? 1 : 0);
-}
-
-// A point `toPoint` away from the light in the view space of a cube's face; the same axes as shadowFaces() in C++.
-vec3 inCubeFace(int face, vec3 toPoint) {
-  float s = (face & 1) == 0 ? 1.0 : -1.0;
-  if (face < 2) return vec3(toPoint.z * s, toPoint.y, -toPoint.x * s);
-  if (face < 4) return vec3(-toPoint.z * s, toPoint.x, -toPoint.y * s);
-  return vec3(-toPoint.x * s, toPoint.y, -toPoint.z * s);
-}
-
 uint texelNumber(ShadowFace face, ivec2 texel) {
   texel = clamp(texel, ivec2(0), ivec2(face.texels.y - 1));
   return uint(face.texels.x + texel.y * face.texels.y + texel.x);
@@ -110,55 +90,39 @@ int texelsOfFace(ShadowFace face) {
   return face.texels.y * face.texels.y + face.texels.w * face.texels.w;
 }
 
+// Of the smoke, at a place in texels of surfaces.
+vec2 smokePlace(ShadowFace face, vec2 place) {
+  return place * (float(face.texels.w) / float(face.texels.y));
+}
+
 uint smokeTexelNumber(ShadowFace face, ivec2 texel) {
   texel = clamp(texel, ivec2(0), ivec2(face.texels.w - 1));
   return uint(face.texels.x + face.texels.y * face.texels.y + texel.y * face.texels.w + texel.x);
 }
 
-// The texels that a lookup asks: side x side of them from `first` on. Weights are those of a B-spline of order `side`:
-// 1 the nearest, 2 bilinear, 4 soft.
-struct Taps {
-  ivec2 first;
-  vec4 x;
-  vec4 y;
-};
-
-ivec2 tapOffset(int i, int side) {
-  return ivec2(i & (side - 1), i >> (side >> 1));  // a division takes long where it is done lane by lane
-}
-
-Taps tapsAround(vec2 place, int side) {
-  Taps taps = Taps(ivec2(floor(place)), vec4(1.0), vec4(1.0));
-  if (side == 1) return taps;
-  vec2 corner = floor(place - 0.5);
-  vec2 f = place - 0.5 - corner;
-  vec2 g = 1.0 - f;
-  taps.first = ivec2(corner);
-  taps.x.xy = vec2(g.x, f.x);
-  taps.y.xy = vec2(g.y, f.y);
-  if (side == 2) return taps;
-  vec2 first = g * g * g / 6.0;
-  vec2 last = f * f * f / 6.0;
-  vec2 second = 2.0 / 3.0 - f * f * (1.0 - 0.5 * f);
-  vec2 third = 1.0 - first - second - last;
-  taps.first -= 1;
-  taps.x = vec4(first.x, second.x, third.x, last.x);
-  taps.y = vec4(first.y, second.y, third.y, last.y);
-  return taps;
-}
-
-// Through the smoke before a point at a place of a face, in texels of its surfaces: that of the nearest texel of smoke, or
-// the optical depths of the four around the point, bilinearly; `side`: see Taps, 1 or 2.
-vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth, int side) {
-#if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
-  Taps taps = tapsAround(place * (float(face.texels.w) / float(face.texels.y)), side);
+// Through the smoke before a point: the optical depths of the four texels around it, bilinearly.
+vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
   vec3 tau = vec3(0.0);
-  for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = tapOffset(i, side);
+#if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
+  Taps taps = tapsAround(smokePlace(face, place), 2);
+  uint asked = 0u;  // those that hold any smoke
+  for (int i = 0; i < 4; ++i)
+    if (knotCount(shadowTexel(smokeTexelNumber(face, taps.first + tapOffset(i, 2)))) != 0u) asked |= 1u << i;
+  while (asked != 0u) {
+    ivec2 offset = tapOffset(findLSB(asked), 2);
+    asked &= asked - 1u;
     ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
-    if (knotCount(texel) != 0u) tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
+    tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
   }
+#endif
   return exp(-tau);
+}
+
+// The same of the nearest one.
+vec3 nearestSmokeTransmittance(ShadowFace face, vec2 place, float depth) {
+#if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
+  ShadowTexel texel = shadowTexel(smokeTexelNumber(face, ivec2(floor(smokePlace(face, place)))));
+  return runTransmittance(texel, depth, vec3(0.0));
 #else
   return vec3(1.0);
 #endif
@@ -169,13 +133,17 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   float depth = -pFace.z;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(depth, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
+#ifdef NEAREST_SMOKE_SHADOWS
+  return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth) * nearestSmokeTransmittance(face, place, depth);
+#else
   Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
     ivec2 offset = tapOffset(i, side);
     sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
-  return sum * smokeTransmittance(face, place, depth, min(side, 2));
+  return sum * (side == 1 ? nearestSmokeTransmittance(face, place, depth) : smokeTransmittance(face, place, depth));
+#endif
 }
 
 // The opaque depth that a texel's surface would have `offset` texels away from its centre, towards a point, if it went on
@@ -242,5 +210,5 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     }
   }
   vec3 through = told > 0.0 ? sum / told : doubtful;
-  return through * smokeTransmittance(face, place, ownDepth - rounding, 2);
+  return through * smokeTransmittance(face, place, ownDepth - rounding);
 }

@@ -3,11 +3,8 @@
 #include "shaders/lights/light.glsl"
 #include "shaders/lights/proxy.glsl"
 #include "shaders/lists/insert.glsl"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   LightPassParams params;
 };

@@ -8,11 +8,9 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve.h"
+#include "shaders/shared/view_block.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ResolveParams params;
 };
@@ -35,9 +33,7 @@ uint nodesOfTexel(uint number, vec3 p) {
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(-pFace.z, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
   uint nodes = knotCount(shadowTexel(texelNumber(face, ivec2(floor(place)))));
-  float smokeSide = float(face.texels.w);
-  if (smokeSide > 0.0)
-    nodes += knotCount(shadowTexel(smokeTexelNumber(face, ivec2(floor(place * smokeSide / float(face.texels.y))))));
+  if (face.texels.w != 0) nodes += knotCount(shadowTexel(smokeTexelNumber(face, ivec2(floor(smokePlace(face, place))))));
   return nodes;
 }
 

@@ -32,8 +32,9 @@ vec3 surfacePass(PackedSurface s) {
   return vec3(unpackHalf2x16(s.emissiveBPassR).y, unpackHalf2x16(s.passGb));
 }
 
-// Reflected radiance over irradiance, 1/sr. GGX with height-correlated Smith visibility (glTF 2.0, appendix B).
-vec3 brdf(Surface surface, vec3 toLight, vec3 toViewer) {
+// Reflected radiance over irradiance, 1/sr, in two parts: what is mirrored, by GGX with height-correlated Smith visibility
+// (glTF 2.0, appendix B), and, as the result, what multiplies the diffuse colour.
+float brdfParts(Surface surface, vec3 toLight, vec3 toViewer, out vec3 mirrored) {
   vec3 halfway = normalize(toLight + toViewer);
   float nl = max(dot(surface.normal, toLight), 1e-5);
   float nv = max(dot(surface.normal, toViewer), 1e-5);
@@ -46,5 +47,12 @@ vec3 brdf(Surface surface, vec3 toLight, vec3 toViewer) {
   float visibility = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
   float grazing = pow(1.0 - vh, 5.0);
   vec3 fresnel = surface.f0 + (surface.f90 - surface.f0) * grazing;
-  return surface.diffuse / PI * (1.0 - clamp(maxComponent(fresnel), 0.0, 1.0)) + distribution * visibility * fresnel;
+  mirrored = distribution * visibility * fresnel;
+  return (1.0 - clamp(maxComponent(fresnel), 0.0, 1.0)) / PI;
+}
+
+vec3 brdf(Surface surface, vec3 toLight, vec3 toViewer) {
+  vec3 mirrored;
+  float scattered = brdfParts(surface, toLight, toViewer, mirrored);
+  return surface.diffuse * scattered + mirrored;
 }

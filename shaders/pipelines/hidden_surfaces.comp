@@ -4,10 +4,8 @@
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/linear_id.glsl"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   uint hidden;
 };

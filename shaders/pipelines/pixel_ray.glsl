@@ -3,11 +3,8 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/lists.h"
 #include "shaders/shared/resolve.h"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ResolveParams params;
 };

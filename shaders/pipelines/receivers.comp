@@ -7,13 +7,11 @@
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve.h"
+#include "shaders/shared/view_block.glsl"
 #ifdef SMOKE
 #include "shaders/volumes/grid.glsl"
 #endif
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ResolveParams params;
 };

@@ -3,7 +3,9 @@
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
 // objects that do not shadow themselves. SMOKE_BLOCKS is defined when blocks of pixels were marched before. DEEP is
-// defined when what each ray meets is recorded for a deep image; then the rays are those of a list.
+// defined when what each ray meets is recorded for a deep image; then the rays are those of a list. AMBIENT is defined
+// when there is ambient light, SSAO when what takes it from opaque surfaces was drawn before.
+#include "shaders/pipelines/accessibility.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/deep_events.glsl"
 #include "shaders/pipelines/surface_lighting.glsl"
@@ -138,7 +140,11 @@ void main() {
       }
       float at = listed ? nextSurface : opaque;
       if (seen) {
-        vec3 added = throughput * shadeSurface(unpackSurface(stored), ray, at);
+        Surface surface = unpackSurface(stored);
+        vec2 position = vec2(place.pixel) + (place.split ? samplePosition(params, place.number) : vec2(0.5));
+        float accessibility =
+            listed ? 1.0 : accessibilityAt(view, position, at, surface.geometricNormal, params.ambient.w);
+        vec3 added = throughput * shadeSurface(surface, ray, at, accessibility);
         radiance += added;
         if (listed) throughput *= surfacePass(stored);
         recordEvent(at, at, added, listed ? throughput : vec3(0.0));

@@ -1,5 +1,5 @@
 // Light in smoke and from fire.
-#include "shaders/deepshadow/lookup.glsl"
+#include "shaders/deepshadow/shadows.glsl"
 #include "shaders/pipelines/multiple_scattering.glsl"
 #include "shaders/pipelines/pixel_ray.glsl"
 #include "shaders/volumes/fire.glsl"

@@ -5,11 +5,9 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve.h"
+#include "shaders/shared/view_block.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std430, binding = STORAGE_PIXEL_GROUPS) writeonly buffer Groups {
   uint pixelGroups[];
 };

@@ -1,11 +1,9 @@
 // What a fragment of a mesh is made of: factors, textures and vertex colour of its glTF material.
+#include "shaders/scene/pass_through.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/geometry.h"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std430, binding = STORAGE_DRAWS) readonly buffer Draws {
   DrawData draws[];
 };
@@ -68,9 +66,4 @@ vec4 baseColour() {
 
 float transmission() {
   return materials[materialNumber()].factors.w * materialTexture(transmissionTexture, TEXTURE_TRANSMISSION).r;
-}
-
-// t = 1 - a (1 - tau b): what passes, for the eye and for light alike.
-vec3 passThrough(vec4 base, float tau) {
-  return clamp(1.0 - base.a * (1.0 - tau * base.rgb), 0.0, 1.0);
 }

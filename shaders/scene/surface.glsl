@@ -1,7 +1,6 @@
 // The whole surface of a fragment, packed for the G-buffer or the camera's lists.
 #include "shaders/scene/material.glsl"
-#include "shaders/shared/math.glsl"
-#include "shaders/shared/surface.h"
+#include "shaders/scene/surface_point.glsl"
 
 layout(binding = TEXTURE_METALLIC_ROUGHNESS) uniform sampler2D metallicRoughnessTexture;
 layout(binding = TEXTURE_NORMAL) uniform sampler2D normalTexture;
@@ -31,38 +30,26 @@ vec3 shadingNormal(MaterialData material, vec3 geometric) {
   return side * n;
 }
 
-PackedSurface packSurface(vec4 base) {
+// What the material says of a fragment whose base colour is `base`.
+SurfacePoint surfacePoint(vec4 base) {
   MaterialData material = materials[materialNumber()];
   vec4 metallicRoughness = materialTexture(metallicRoughnessTexture, TEXTURE_METALLIC_ROUGHNESS);
-  float metallic = clamp(material.factors.x * metallicRoughness.b, 0.0, 1.0);
-  float roughness = clamp(material.factors.y * metallicRoughness.g, 0.03, 1.0);
-  float specular = material.specularColour.w * materialTexture(specularTexture, TEXTURE_SPECULAR).a;
-  vec3 specularColour = material.specularColour.rgb * materialTexture(specularColourTexture, TEXTURE_SPECULAR_COLOUR).rgb;
-  vec3 emissive = material.emissive.rgb * materialTexture(emissiveTexture, TEXTURE_EMISSIVE).rgb * base.a;
-  float tau = transmission();
-
-  vec3 diffuse = base.rgb * ((1.0 - metallic) * base.a * (1.0 - tau));
-  vec3 f0 = mix(min(0.04 * specularColour, 1.0) * specular, base.rgb, metallic) * base.a;
-  float f90 = mix(specular, 1.0, metallic) * base.a;
-  if ((material.flags.x & MATERIAL_UNLIT) != 0) {
-    emissive = base.rgb * base.a;
-    diffuse = f0 = vec3(0.0);
-    f90 = 0.0;
-  }
-  vec3 pass = passThrough(base, tau);
-  vec3 geometric = geometricNormal();
+  SurfacePoint point;
+  point.base = base;
+  point.metallic = clamp(material.factors.x * metallicRoughness.b, 0.0, 1.0);
+  point.roughness = clamp(material.factors.y * metallicRoughness.g, 0.03, 1.0);
+  point.specular = material.specularColour.w * materialTexture(specularTexture, TEXTURE_SPECULAR).a;
+  point.specularColour = material.specularColour.rgb * materialTexture(specularColourTexture, TEXTURE_SPECULAR_COLOUR).rgb;
+  point.emissive = material.emissive.rgb * materialTexture(emissiveTexture, TEXTURE_EMISSIVE).rgb;
+  point.tau = transmission();
+  point.unlit = (material.flags.x & MATERIAL_UNLIT) != 0;
+  point.geometricNormal = geometricNormal();
+  point.normal = shadingNormal(material, point.geometricNormal);
   int object = draws[vDraw].indices.z;
+  point.coverageObject = uint(gl_SampleMaskIn[0]) | ((object & SHADOW_NOT_SELF) != 0 ? uint(object) << 16 : 0u);
+  return point;
+}
 
-  PackedSurface s;
-  s.normal = packSnorm2x16(octahedralFromUnit(shadingNormal(material, geometric)));
-  s.geometricNormal = packSnorm2x16(octahedralFromUnit(geometric));
-  s.diffuseRg = packHalf2x16(diffuse.rg);
-  s.diffuseBRoughness = packHalf2x16(vec2(diffuse.b, roughness));
-  s.f0Rg = packHalf2x16(f0.rg);
-  s.f0BF90 = packHalf2x16(vec2(f0.b, f90));
-  s.emissiveRg = packHalf2x16(min(emissive.rg, 65504.0));
-  s.emissiveBPassR = packHalf2x16(vec2(min(emissive.b, 65504.0), pass.r));
-  s.passGb = packHalf2x16(pass.gb);
-  s.coverageObject = uint(gl_SampleMaskIn[0]) | ((object & SHADOW_NOT_SELF) != 0 ? uint(object) << 16 : 0u);
-  return s;
+PackedSurface packSurface(vec4 base) {
+  return packedSurface(surfacePoint(base));
 }

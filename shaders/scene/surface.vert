@@ -1,11 +1,8 @@
 // Every mesh of every pass: the camera's and the lights'.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/geometry.h"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std430, binding = STORAGE_DRAWS) readonly buffer Draws {
   DrawData draws[];
 };
@@ -25,6 +22,8 @@ out vec2 vUv0;
 out vec2 vUv1;
 out vec4 vColour;
 flat out uint vDraw;
+
+invariant gl_Position;  // what is drawn again meets its own depth
 
 void main() {
   vec4 pWorld = draws[drawNumber].worldFromObject * vec4(position, 1.0);

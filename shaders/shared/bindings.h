@@ -17,6 +17,7 @@
 #define STORAGE_LIST_COUNTERS 5
 #define STORAGE_LIGHTS 6            // LightData[]
 #define STORAGE_AOVS 7              // AovPixel[]
+#define STORAGE_ROUTED_MET 7        // uvec2[]: keys of the last fragments that rays have met
 #define STORAGE_RECEIVER_DEPTHS 8   // of each cell of the light lists
 #define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
 #define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
@@ -30,10 +31,16 @@
 #define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
 #define STORAGE_LIST_NODES 17     // keys or links, LIST_MAX_BANKS of them
 #define STORAGE_LIST_PAYLOADS 21  // likewise
+#define STORAGE_BENDS 9             // of each pixel: see layer_walk.comp
 #define STORAGE_DEEP_RAYS 25      // the rays that are recorded: see deep_events.glsl
 #define STORAGE_DEEP_EVENTS 26    // DeepEvent[]
 
+// Images that are written
+#define IMAGE_PICTURE 0  // of post-processing
+
 // Texture units
+#define TEXTURE_PICTURE 0           // what post-processing reads
+#define TEXTURE_PICTURE_SURFACES 1  // normal and 1 / depth of each pixel
 #define TEXTURE_BASE_COLOUR 0
 #define TEXTURE_METALLIC_ROUGHNESS 1
 #define TEXTURE_NORMAL 2
@@ -41,6 +48,7 @@
 #define TEXTURE_TRANSMISSION 4
 #define TEXTURE_SPECULAR 5
 #define TEXTURE_SPECULAR_COLOUR 6
+#define TEXTURE_OCCLUSION 6  // of ambient light, where surfaces of a G-buffer are lit
 #define TEXTURE_OPAQUE_DEPTH 7
 #define TEXTURE_SURFACE_0 8
 #define TEXTURE_SURFACE_1 9
@@ -57,4 +65,17 @@
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_BRICK_MAP 18
 #define TEXTURE_SMOKE_BLOCKS 19  // RayState of each block of pixels
+// Where layers of surfaces are lit one at a time, and no lists of them are read:
+#define TEXTURE_SURFACE_2 12
+#define TEXTURE_LAYER_LIGHT 13
+#define TEXTURE_PEELED_DEPTH 14
+#define TEXTURE_PEELED_ID 17
+#define TEXTURE_FINISHED_LIGHT 13
+#define TEXTURE_FINISHED_DEPTH 14
+#define TEXTURE_ROUTED_KEYS 14  // of the fragments in samples: depth, number
+#define TEXTURE_ROUTED_COUNTS 13  // of fragments of a pixel
+#define TEXTURE_ROUTED_PAGE 14  // while they are drawn
 #define TEXTURE_GRIDS 20  // and the units after it
+
+// Image units
+#define IMAGE_RESULT 0  // what a pass of images writes

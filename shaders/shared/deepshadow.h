@@ -7,8 +7,8 @@ SHARED_BEGIN
 struct ShadowFace {
   mat4 faceFromWorld;  // view space of the face; depth is along -Z
   vec4 projection;     // texel = xy * scale + offset; xy is divided by depth first when perspective
-  // x: number of its first texel, y: side, z: 1 for perspective, w: side of its texels of smoke, which stand behind the
-  // others; 0: none
+  // x: number of its first texel, y: side, z: 1 for perspective; w: side of its texels of smoke, which stand behind the
+  // others, 0: none; of interlaced maps, first column
   ivec4 texels;
 };
 
@@ -43,6 +43,11 @@ struct ShadowPassParams {
   ivec4 cells;  // of the face, that knots are written of: x: the first, y: how many, z, w: place of the first in the
                 // runs and in the texels
   ivec4 units;  // x: number of the pool's first that is written; y: SHADOW_*: which cells
+};
+
+// Of the pass that draws an interlaced map.
+struct InterlacedPassParams {
+  vec4 lightColour;  // rgb, its largest channel 1
 };
 
 struct ShadowCounters {

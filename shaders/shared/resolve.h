@@ -20,15 +20,17 @@ struct RayState {
 };
 
 struct ResolveParams {
-  vec4 march;      // x: step, voxels; y: throughput below which the rest is not looked at
+  vec4 march;      // x: step, voxels; y: throughput below which the rest is not looked at; z: of layers: pixels by
+                   // which a normal across the view shifts what is seen through its surface
   ivec4 options;   // x: 1 when this is the first dispatch; y: texels a side that a lookup in a shadow map asks, of
                    // surfaces, and 8 times those of smoke; z: directional lights; w: rays
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
   vec4 samples23;
+  vec4 ambient;    // rgb: radiance from all around; w: radius of ambient occlusion, m
 };
 
 struct ResolveCounters {
-  uint groups;      // pixels that are split, counted past the capacity
+  uint groups;      // pixels that are split, counted past the capacity; of layers: rays that met a surface
   uint unfinished;  // rays that need another dispatch
   uint boundHit;    // walks of light lists that were cut (never silently)
 };

@@ -9,7 +9,7 @@ struct ViewParams {
   mat4 worldFromView;
   mat4 clipFromView;
   vec4 halfExtent;   // xy: of the image at depth 1 (perspective) or anywhere (orthographic), m; z: 1 for orthographic
-  vec4 depthRange;   // x: near, y: far (3e38 for none)
+  vec4 depthRange;   // x: near, y: far (3e38 for none); z: a power of two, times which every depth that is seen is below 1
   ivec4 size;        // x, y: width, height in pixels or texels; z: what to add for their number in the lists or
               // runs that are written; w: first row that a compute pass works on
   // Of the camera, whose image may be drawn in parts; pixels, rows from the bottom.

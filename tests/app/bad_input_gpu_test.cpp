@@ -14,20 +14,6 @@ namespace {
 constexpr size_t camera = 1;  // node
 constexpr size_t lamp = 2;    // node
 
-// A triangle that glows, seen by a camera 2 m before it, and a lamp; vertices may be bent.
-GltfBuilder glowingScene(const std::vector<float>& positions = {0, 0, 0, 1, 0, 0, 0, 1, 0},
-                         const std::vector<uint16_t>& indices = {0, 1, 2}) {
-  GltfBuilder gltf;
-  const int position = gltf.accessor<float>("VEC3", positions);
-  const int index = gltf.accessor<uint16_t>("SCALAR", indices);
-  gltf.meshNode({{"attributes", {{"POSITION", position}}}, {"indices", index}, {"material", 0}});
-  gltf.add("materials", {{"emissiveFactor", {1, 1, 1}}, {"doubleSided", true}});
-  gltf.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}});
-  gltf.add("nodes", {{"camera", 0}, {"translation", {0.3, 0.3, 2}}});
-  gltf.light({{"type", "point"}, {"intensity", 5}})["translation"] = {0.5, 0.5, 2};
-  return gltf;
-}
-
 Json& lens(GltfBuilder& gltf) {
   return gltf.json["cameras"][0]["perspective"];
 }

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "image/image_file.h"
 #include "image/metrics.h"
+#include "pipelines/pipeline_names.h"
 #include "tests/app/program.h"
 #include "tests/gl/test_device.h"
 #include "volumes/vdb_file.h"
@@ -515,6 +516,87 @@ TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
               5, "deep shadow maps: take 46 times the 0.1 MiB that they may");
   expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "much"})), 2,
               "--shadow-memory");
+}
+
+TEST_F(CommandLineRender, ShapesPicturesAndKeepsRadiance) {
+  render({"scene.gltf", "-o", "plain.exr", "-o", "plain.png"});
+  const image::Image radiance = picture("plain.exr"), plain = picture("plain.png");
+  struct Row {
+    Arguments flags;
+    std::string setting;  // that the picture says
+  };
+  for (const auto& [flags, setting] :
+       {Row{{"--tonemap", "reinhard"}, "log_average_luminance"},
+        Row{{"--bloom", "separable"}, "separable, strength 0.2"},
+        Row{{"--bloom", "mipmap", "--bloom-strength", "9"}, "mipmap, strength 9"},
+        Row{{"--aa", "edges"}, "anti_aliasing"},
+        Row{{"--tonemap", "reinhard", "--white", "2"}, "white_luminance"}}) {
+    SCOPED_TRACE(setting);
+    for (const bool reference : {false, true}) {
+      Arguments arguments = {"scene.gltf", "-o", "out.exr", "-o", "out.png", "--stats", "out.json"};
+      arguments.insert(arguments.end(), flags.begin(), flags.end());
+      if (reference) arguments.push_back("--reference");
+      render(arguments);
+      if (!reference) {
+        EXPECT_EQ(picture("out.exr").values, radiance.values);
+      }
+      EXPECT_THROW(image::readLayer(path("out.exr"), "depth"), base::Error);
+      EXPECT_GT(image::compare(picture("out.png"), plain).relativeRmse, 1e-3);
+      EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos);
+    }
+  }
+}
+
+TEST_F(CommandLineRender, ShapesPicturesOfEveryPipeline) {
+  for (const std::string& pipeline : pipelines::pipelineNames()) {
+    SCOPED_TRACE(pipeline);
+    render({"scene.gltf", "--pipeline", pipeline, "-o", "plain.exr", "-o", "plain.png"});
+    render({"scene.gltf", "--pipeline", pipeline, "-o", "out.exr", "-o", "out.png", "--aa", "edges"});
+    EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
+    EXPECT_GT(image::compare(picture("out.png"), picture("plain.png")).relativeRmse, 1e-2);
+  }
+}
+
+TEST_F(CommandLineGpu, PresetsGiveWayToFlags) {
+  const auto plan = [&](const Arguments& flags) {
+    Arguments arguments = {"render", "scene.gltf", "-n", "-q"};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Outcome outcome = run(arguments, noEgl);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_NE(plan({"--effects", "low"}).find("shadow maps 512 texels"), std::string::npos);
+  EXPECT_NE(plan({"--effects", "high"}).find("shadow maps 2048 texels"), std::string::npos);
+  EXPECT_NE(plan({"--effects", "high", "--shadow-res", "256"}).find("shadow maps 256 texels"),
+            std::string::npos);
+  EXPECT_NE(plan({"--quality", "draft", "--effects", "high"}).find("shadow maps 512 texels"),
+            std::string::npos);
+  expectError(run({"render", "scene.gltf", "-n", "--effects", "low", "--reference"}), 2, "--effects");
+  expectError(run({"render", "scene.gltf", "-n", "--effects", "ultra"}), 2, "is none of low, medium, high");
+}
+
+TEST_F(CommandLineRender, PresetsSetEveryEffect) {
+  render({"scene.gltf", "--ambient", "0.1", "-o", "out.png", "--effects", "low"});
+  for (const char* setting : {"tone_map", "reinhard", "mipmap, strength 0.2", "edges", "quarter, radius"})
+    EXPECT_NE(contentOf(path("out.png")).find(setting), std::string::npos) << setting;
+  render({"scene.gltf", "--ambient", "0.1", "-o", "out.png", "--effects", "low", "--bloom", "separable",
+          "--ssao", "off"});
+  EXPECT_NE(contentOf(path("out.png")).find("separable, strength 0.2"), std::string::npos);
+  EXPECT_EQ(contentOf(path("out.png")).find("radius"), std::string::npos);
+  // An .exr alone has no picture to shape.
+  render({"scene.gltf", "-o", "plain.exr", "--ssao", "off"});
+  render({"scene.gltf", "-o", "out.exr", "--ssao", "off", "--effects", "low"});
+  EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
+}
+
+TEST_F(CommandLineRender, TimesPostProcessing) {
+  render({"scene.gltf", "-o", "out.png", "--bloom", "mipmap", "--aa", "edges", "--stats", "out.json"});
+  const Json figures = Json::parse(contentOf(path("out.json")));
+  std::set<std::string> passes;
+  for (const Json& pass : figures["frame"]["passes"]) passes.insert(pass["pass"]);
+  for (const char* pass : {"post-processing", "post-processing/bloom", "post-processing/edges"})
+    EXPECT_TRUE(passes.contains(pass)) << pass;
+  EXPECT_EQ(figures["memory"]["peak_bytes_by_label"]["post-processed picture"], 2 * 64 * 48 * 16);
 }
 
 TEST_F(CommandLineRender, WritesFigures) {

@@ -12,26 +12,42 @@ const TemporaryFolder& folder() {
 }
 
 TEST(CommandLine, NamesTheArgumentThatIsWrong) {
-  expectErrors(folder().path(),
-               {
-                   {{}, 2, "no command"},
-                   {{"frobnicate"}, 2, "frobnicate: no such command"},
-                   {{"--frob"}, 2, "--frob: no such option"},
-                   {{"info", "--frob"}, 2, "--frob: no such option: see `sfumato info --help`"},
-                   {{"info", "more"}, 2, "more: is one argument too many"},
-                   {{"info", "--shader-dir", "nowhere"}, 2, "--shader-dir: \"nowhere\" is not a folder"},
-                   {{"render", "--frob"}, 2, "--frob: no such option: see `sfumato render --help`"},
-                   {{"render", "a.gltf", "b.gltf"}, 2, "b.gltf: is one argument too many"},
-                   {{"render", ""}, 2, "SCENE: \"\" is no file"},
-                   {{"render", "a.gltf", "-o"}, 2, "--output: takes FILE"},
-                   {{"render", "a.gltf", "-o", ""}, 2, "--output: \"\" is no file"},
-                   {{"render", "a.gltf", "--stats", ""}, 2, "--stats: \"\" is no file"},
-                   {{"render", "a.gltf", "--volume", ""}, 2, "--volume: \"\" is no file"},
-                   {{"render", "a.gltf", "--res"}, 2, "--res: takes WxH"},
-                   {{"render", "a.gltf", "--res", "8x8", "--res", "9x9"}, 2, "--res: takes WxH, once"},
-                   {{"render", "a.gltf", "--look-at", "1", "2"}, 2, "--look-at: takes X Y Z"},
-                   {{"render", "a.gltf", "--quality", "foo"}, 2, "--quality: \"foo\" is none of draft, "},
-               });
+  expectErrors(
+      folder().path(),
+      {
+          {{}, 2, "no command"},
+          {{"frobnicate"}, 2, "frobnicate: no such command"},
+          {{"--frob"}, 2, "--frob: no such option"},
+          {{"info", "--frob"}, 2, "--frob: no such option: see `sfumato info --help`"},
+          {{"info", "more"}, 2, "more: is one argument too many"},
+          {{"info", "--shader-dir", "nowhere"}, 2, "--shader-dir: \"nowhere\" is not a folder"},
+          {{"render", "--frob"}, 2, "--frob: no such option: see `sfumato render --help`"},
+          {{"render", "a.gltf", "b.gltf"}, 2, "b.gltf: is one argument too many"},
+          {{"render", ""}, 2, "SCENE: \"\" is no file"},
+          {{"render", "a.gltf", "-o"}, 2, "--output: takes FILE"},
+          {{"render", "a.gltf", "-o", ""}, 2, "--output: \"\" is no file"},
+          {{"render", "a.gltf", "--stats", ""}, 2, "--stats: \"\" is no file"},
+          {{"render", "a.gltf", "--volume", ""}, 2, "--volume: \"\" is no file"},
+          {{"render", "a.gltf", "--res"}, 2, "--res: takes WxH"},
+          {{"render", "a.gltf", "--res", "8x8", "--res", "9x9"}, 2, "--res: takes WxH, once"},
+          {{"render", "a.gltf", "--look-at", "1", "2"}, 2, "--look-at: takes X Y Z"},
+          {{"render", "a.gltf", "--quality", "foo"}, 2, "--quality: \"foo\" is none of draft, "},
+          {{"render", "a.gltf", "--tonemap", "foo"}, 2, "--tonemap: \"foo\" is none of neutral, "},
+          {{"render", "a.gltf", "--bloom", "on"}, 2, "--bloom: \"on\" is none of off, separable, "},
+          {{"render", "a.gltf", "--aa", "4"}, 2, "--aa: \"4\" is none of off, edges"},
+          {{"render", "a.gltf", "--aa"}, 2, "--aa: takes NAME"},
+          {{"bench"}, 2, "name pipelines or papers: see `sfumato bench --help`"},
+          {{"bench", "--frob"}, 2, "--frob: no such option: see `sfumato bench --help`"},
+          {{"bench", "shapes"}, 2, "shapes: is one argument too many"},
+          {{"bench", "pipelines", "--frob"}, 2, "see `sfumato bench pipelines --help`"},
+          {{"bench", "pipelines", "--res"}, 2, "--res: takes WxH, once: see `sfumato bench pipelines"},
+          {{"bench", "pipelines", "--pipelines", "foo"}, 2, "--pipelines: \"foo\" is none of lund"},
+          {{"bench", "pipelines", "--exact", "foo"}, 2, "--exact: \"foo\" is none of cpu, lund"},
+          {{"bench", "pipelines", "--repeat", "0"}, 2, "--repeat: \"0\" is not a whole number"},
+          {{"bench", "papers", "a.gltf"}, 2, "a.gltf: is one argument too many"},
+          {{"bench", "papers", "--paper", "foo"}, 2, "--paper: \"foo\" is none of metu, cescg"},
+          {{"bench", "papers", "--lights", "2..65"}, 2, "--lights: \"2..65\" is not a range"},
+      });
 }
 
 TEST(CommandLine, TakesOnlyResolutionsThatAreOne) {
@@ -52,6 +68,8 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--step", 1, {"0", "100.1", "nan", "-nan", "inf", "", "foo", "1 2", "1,5", "++1", "5e"}},
            {"--fov", 1, {"-45", "180", "nan"}},
            {"--exposure", 1, {"31", "nan"}},
+           {"--white", 1, {"0", "-1", "1e10", "nan"}},
+           {"--bloom-strength", 1, {"-0.1", "10.1", "nan"}},
            {"--volume-scale", 1, {"-1", "nan"}},
            {"--volume-g", 1, {"1", "nan"}},
            {"--volume-extinction", 3, {"-1", "1e7", "nan"}},
@@ -64,6 +82,7 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
            {"--shadow-res", 1, {"31", "64.5", "1e3", "nan"}},
            {"--shadow-error", 1, {"-0.1", "0.51", "nan", "foo"}},
            {"--repeat", 1, {"0", "1001"}},
+           {"--ssao-radius", 1, {"0", "nan", "-1", "1e7"}},
            {"--samples", 1, {"0", "65", "1.5", "nan"}},
        }) {
     for (const std::string& text : row.wrong) {
@@ -75,12 +94,28 @@ TEST(CommandLine, TakesOnlyNumbersInRange) {
   }
 }
 
+TEST(CommandLine, TakesOnlyAmbientLightThatCanBe) {
+  for (const char* text :
+       {"", "-1", "1,2", "1,2,3,4", "1,2,", ",,", "1 2 3", "nan", "0,0,-0.1", "1e7", "red"})
+    expectError(runProgram(folder().path(), {"render", "a.gltf", "--ambient", text}), 2,
+                "--ambient: \"" + std::string(text) + "\" is not a colour");
+  expectErrors(folder().path(),
+               {
+                   {{"render", "a.gltf", "--ssao", "tiny"}, 2, "--ssao: \"tiny\" is none of off, full, "},
+                   {{"render", "a.gltf", "--ssao", "half", "--reference"}, 2, "--reference excludes --ssao"},
+                   {{"render", "a.gltf", "--ssao-radius", "1"}, 2, "--ssao-radius requires --ssao"},
+               });
+}
+
 TEST(CommandLine, ShowsHelpAndVersion) {
   for (const Arguments& arguments : std::vector<Arguments>{{"--help"},
                                                            {"-h"},
                                                            {"render", "--help"},
                                                            {"compare", "--help"},
                                                            {"stress", "--help"},
+                                                           {"bench", "--help"},
+                                                           {"bench", "pipelines", "--help"},
+                                                           {"bench", "papers", "--help"},
                                                            {"info", "--help"}}) {
     const Outcome outcome = runProgram(folder().path(), arguments);
     EXPECT_EQ(outcome.exitCode, 0);
@@ -116,6 +151,7 @@ TEST(CommandLine, SurvivesClosedStderr) {
 TEST(CommandLine, SaysThatItWasBuiltWithoutOpenGl) {
   folder().write("empty.gltf", GltfBuilder().text());
   expectErrors(folder().path(), {{{"render", "empty.gltf", "-q", "-o", "a.png"}, 4, "built without OpenGL"},
+                                 {{"bench", "papers"}, 4, "built without OpenGL"},
                                  {{"info"}, 4, "built without OpenGL"}});
 }
 #endif

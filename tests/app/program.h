@@ -154,6 +154,20 @@ inline void expectError(const Outcome& outcome, int exitCode, const std::string&
   EXPECT_NE(outcome.err.find(says), std::string::npos) << "\"" << says << "\" is not in: " << outcome.err;
 }
 
+// A triangle that glows, seen by a camera 2 m before it, and a lamp; vertices may be bent.
+inline GltfBuilder glowingScene(const std::vector<float>& positions = {0, 0, 0, 1, 0, 0, 0, 1, 0},
+                                const std::vector<uint16_t>& indices = {0, 1, 2}) {
+  GltfBuilder gltf;
+  const int position = gltf.accessor<float>("VEC3", positions);
+  const int index = gltf.accessor<uint16_t>("SCALAR", indices);
+  gltf.meshNode({{"attributes", {{"POSITION", position}}}, {"indices", index}, {"material", 0}});
+  gltf.add("materials", {{"emissiveFactor", {1, 1, 1}}, {"doubleSided", true}});
+  gltf.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}});
+  gltf.add("nodes", {{"camera", 0}, {"translation", {0.3, 0.3, 2}}});
+  gltf.light({{"type", "point"}, {"intensity", 5}})["translation"] = {0.5, 0.5, 2};
+  return gltf;
+}
+
 struct BadCall {
   Arguments arguments;
   int exitCode;

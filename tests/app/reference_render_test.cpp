@@ -119,6 +119,37 @@ TEST_F(ReferenceRender, PicturesSayWhatMadeThem) {
   }
 }
 
+TEST_F(ReferenceRender, ToneMapsWithoutOpenGl) {
+  render({"scene.gltf", "--reference", "-o", "plain.exr", "-o", "plain.png"});
+  render({"scene.gltf", "--reference", "--tonemap", "reinhard", "-o", "out.exr", "-o", "out.png"});
+  EXPECT_EQ(picture("out.exr").values, picture("plain.exr").values);
+  EXPECT_NE(picture("out.png").values, picture("plain.png").values);
+  EXPECT_NE(contentOf(folder.path() / "out.png").find("log_average_luminance"), std::string::npos);
+  EXPECT_EQ(contentOf(folder.path() / "out.exr").find("log_average_luminance"), std::string::npos);
+}
+
+TEST_F(ReferenceRender, SaysWhatNeedsOpenGl) {
+  const auto before = listing(folder.path());
+  for (const Arguments& effect : {Arguments{"--bloom", "mipmap"}, Arguments{"--aa", "edges"}}) {
+    Arguments arguments = {"scene.gltf", "--reference", "-q", "-o", "out.png"};
+    arguments.insert(arguments.end(), effect.begin(), effect.end());
+    expectError(run(arguments), 4, "--bloom, --aa: need OpenGL");
+    EXPECT_EQ(listing(folder.path()), before);
+  }
+}
+
+TEST_F(ReferenceRender, NamesTheFlagThatHasNothingToActOn) {
+  expectError(run({"scene.gltf", "-o", "out.png", "--white", "2"}), 2, "--white: is of a curve");
+  expectError(run({"scene.gltf", "-o", "out.png", "--bloom-strength", "1"}), 2,
+              "--bloom-strength: of no bloom");
+  for (const Arguments& flag :
+       {Arguments{"--tonemap", "reinhard"}, Arguments{"--bloom", "mipmap"}, Arguments{"--aa", "edges"}}) {
+    Arguments arguments = {"scene.gltf", "-o", "out.exr"};
+    arguments.insert(arguments.end(), flag.begin(), flag.end());
+    expectError(run(arguments), 2, flag[0] + ": shapes a .png only");
+  }
+}
+
 TEST_F(ReferenceRender, PutsSmokeAloneIntoASet) {
   ASSERT_NO_FATAL_FAILURE(writeSmoke());
   if (IsSkipped()) return;

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "gl/program.h"
+#include "shaders/shared/ambient_occlusion.h"
 #include "shaders/shared/aovs.h"
 #include "shaders/shared/deep.h"
 #include "shaders/shared/deepshadow.h"
@@ -17,6 +18,7 @@
 #include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
+#include "shaders/shared/post.h"
 #include "shaders/shared/resolve.h"
 #include "shaders/shared/stress.h"
 #include "shaders/shared/surface.h"
@@ -62,6 +64,8 @@ const std::map<std::string, Layout>& cppLayouts() {
         {AT(MaterialData, baseColour), AT(MaterialData, emissive), AT(MaterialData, specularColour),
          AT(MaterialData, factors), AT(MaterialData, flags), AT(MaterialData, shadow),
          AT(MaterialData, uvTransforms)}}},
+      {"PostParams",
+       {sizeof(shared::PostParams), {AT(PostParams, sizes), AT(PostParams, step), AT(PostParams, light)}}},
       {"PackedSurface",
        {sizeof(shared::PackedSurface),
         {AT(PackedSurface, normal), AT(PackedSurface, geometricNormal), AT(PackedSurface, diffuseRg),
@@ -100,6 +104,8 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ShadowPassParams",
        {sizeof(shared::ShadowPassParams),
         {AT(ShadowPassParams, march), AT(ShadowPassParams, cells), AT(ShadowPassParams, units)}}},
+      {"InterlacedPassParams",
+       {sizeof(shared::InterlacedPassParams), {AT(InterlacedPassParams, lightColour)}}},
       {"ShadowCounters",
        {sizeof(shared::ShadowCounters),
         {AT(ShadowCounters, units), AT(ShadowCounters, unplaced), AT(ShadowCounters, unfinished),
@@ -112,13 +118,17 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ResolveParams",
        {sizeof(shared::ResolveParams),
         {AT(ResolveParams, march), AT(ResolveParams, options), AT(ResolveParams, samples01),
-         AT(ResolveParams, samples23)}}},
+         AT(ResolveParams, samples23), AT(ResolveParams, ambient)}}},
       {"ResolveCounters",
        {sizeof(shared::ResolveCounters),
         {AT(ResolveCounters, groups), AT(ResolveCounters, unfinished), AT(ResolveCounters, boundHit)}}},
       {"StressParams",
        {sizeof(shared::StressParams),
         {AT(StressParams, load), AT(StressParams, window), AT(StressParams, lookups)}}},
+      {"OcclusionParams",
+       {sizeof(shared::OcclusionParams),
+        {AT(OcclusionParams, offsets), AT(OcclusionParams, size), AT(OcclusionParams, along),
+         AT(OcclusionParams, distances)}}},
       {"VolumeData",
        {sizeof(shared::VolumeData),
         {AT(VolumeData, extinction), AT(VolumeData, albedo), AT(VolumeData, scattering), AT(VolumeData, ramp),
@@ -195,7 +205,8 @@ TEST_F(SharedLayouts, StorageBlocksMatchCpp) {
 
 TEST_F(SharedLayouts, UniformBlocksMatchCpp) {
   for (const std::string name :
-       {"ViewParams", "LightPassParams", "ShadowPassParams", "ResolveParams", "StressParams", "GridData"}) {
+       {"ViewParams", "LightPassParams", "ShadowPassParams", "InterlacedPassParams", "ResolveParams",
+        "StressParams", "GridData", "OcclusionParams", "PostParams"}) {
     const Layout driver = driverLayout(device(), name, true);
     EXPECT_EQ(driver.offsets, cppLayouts().at(name).offsets) << name;
     EXPECT_EQ(driver.size, cppLayouts().at(name).size) << name;

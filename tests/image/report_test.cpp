@@ -40,6 +40,8 @@ Report wholeReport() {
       Table{.title = "Table", .header = {"h"}, .rows = {{"r1"}, {"r2"}}, .highlighted = {1}});
   report.parts.emplace_back(
       CountMap{.title = "Map", .width = 2, .height = 1, .counts = {3, 4}, .unit = "nodes"});
+  report.parts.emplace_back(
+      Pictures{.title = "Pictures", .pictures = {{"a b.png", "left"}, {"c.png", "right"}}});
   return report;
 }
 
@@ -48,7 +50,7 @@ TEST_F(ReportPage, HoldsWhatWasPutIn) {
   for (const char* part :
        {"<title>Title</title>", "<dt>Name</dt><dd>Value</dd>", "<p class=\"good\">All is well</p>",
         "<h2>Bars</h2>", "Of two kinds", "<tr><td>r1</td></tr>", "<tr class=\"bad\"><td>r2</td></tr>",
-        "Chart.js v3", "</html>"})
+        "<img src=\"a b.png\" alt=\"left\">", "<p>right</p>", "Chart.js v3", "</html>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   const nlohmann::json drawn = drawnBy(page);
   ASSERT_EQ(drawn.size(), 2u);  // the table is HTML
@@ -74,6 +76,8 @@ TEST_F(ReportPage, TakesNoNameForMarkup) {
       Plot{.title = hostile, .caption = hostile, .series = {{.name = hostile, .points = {{1, 1}}}}});
   report.parts.emplace_back(
       Table{.title = hostile, .caption = hostile, .header = {hostile}, .rows = {{hostile}}});
+  report.parts.emplace_back(Pictures{
+      .title = hostile, .caption = hostile, .pictures = {{hostile, "\"><script>alert('x')</script>"}}});
   const std::string page = reportPage(report);
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_EQ(drawnBy(page)[0]["series"][0]["name"].get<std::string>().substr(0, 9), "</script>");

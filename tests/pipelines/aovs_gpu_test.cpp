@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "image/metrics.h"
+#include "pipelines/aovs_gpu.h"
 #include "pipelines/linked_lists_gpu.h"
 #include "pipelines/reference.h"
 #include "tests/gl/test_device.h"
@@ -69,6 +70,20 @@ TEST_F(AovsGpu, AreThoseOfTheReference) {
       const double failing = failingFraction(frame.aovs.at(aov), image, tolerances.at(aov));
       EXPECT_LT(failing, 0.0005) << known.name << " " << nameOf(aov);
     }
+  }
+}
+
+// For pipelines that tell none: one sample a pixel.
+TEST_F(AovsGpu, SurfacesAloneAreThoseOfTheFrame) {
+  for (const KnownScene& known : tests::knownScenes()) {
+    Quality quality = fine;
+    quality.samples = 1;
+    const Frame frame = draw(known, quality, {.aovs = {Aov::Depth, Aov::Normal}});
+    const SceneGpu scene(device(), known.scene, known.media);
+    AovImages alone = emptyImages({Aov::Depth, Aov::Normal}, width, height);
+    drawSurfaceAovs(scene, known.scene.cameras[0], alone);
+    EXPECT_EQ(alone.at(Aov::Depth).values, frame.aovs.at(Aov::Depth).values) << known.name;
+    EXPECT_EQ(failingFraction(alone.at(Aov::Normal), frame.aovs.at(Aov::Normal), 1e-6), 0) << known.name;
   }
 }
 

@@ -401,6 +401,13 @@ TEST_F(GltfHostile, EachDamageIsNamed) {
       {"shadow_rim beyond floats", [](Json& j) { j["materials"][0]["extras"]["shadow_rim"] = 1e300; },
        "material 0 \"paint\": shadow_rim is 1e+300"},
 
+      // Ambient light.
+      {"ambient is a number", [](Json& j) { j["scenes"][0]["extras"]["ambient"] = 1; },
+       "scene 0: ambient is not an array of 3 numbers"},
+      {"ambient below 0", [](Json& j) { j["scenes"][0]["extras"]["ambient"] = {0, -1, 0}; }, "ambient is -1"},
+      {"ambient beyond sense", [](Json& j) { j["scenes"][0]["extras"]["ambient"] = {0, 0, 1e7}; }, "ambient is 1"},
+      {"ambient with text", [](Json& j) { j["scenes"][0]["extras"]["ambient"] = {"a", 0, 0}; }, "not an array of 3"},
+
       // Volumes.
       {"volume is a number", [](Json& j) { volume(j)["volume"] = 3; }, "node 4 \"smoke\": volume is not a string"},
       {"volume is empty", [](Json& j) { volume(j)["volume"] = ""; }, "volume is empty"},

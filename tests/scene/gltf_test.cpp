@@ -731,6 +731,15 @@ TEST(GltfLight, MayCastNoShadow) {
   EXPECT_EQ(cast, (std::vector<bool>{true, false, false, true}));
 }
 
+TEST(GltfScene, AmbientLightIsThatOfTheDefaultScene) {
+  GltfBuilder gltf = test::triangle();
+  EXPECT_EQ(load(gltf).ambient, glm::dvec3(0));
+  gltf.json["scenes"] = {{{"nodes", {0}}, {"extras", {{"ambient", {9, 9, 9}}}}},
+                         {{"nodes", {0}}, {"extras", {{"ambient", {0.5, 1, 2}}}}}};
+  gltf.json["scene"] = 1;
+  EXPECT_EQ(load(gltf).ambient, glm::dvec3(0.5, 1, 2));
+}
+
 // --- Volumes ---
 
 TEST(GltfVolume, AllExtras) {

@@ -652,7 +652,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(VdbFile, SaysThatThisBuildHasNoOpenVdb) {
   EXPECT_EQ(errorOf(ExitCode::Input, [&] { readVdb(path("a.vdb"), ""); }),
             "a.vdb: cannot be read: this build has no OpenVDB");
-  EXPECT_EQ(errorOf(ExitCode::Input, [&] { writeVdb(path("a.vdb"), {}); }),
+  EXPECT_EQ(errorOf(ExitCode::Input, [&] { writeVdb(path("a.vdb"), DensityGrid{}); }),
             "a.vdb: cannot be written: this build has no OpenVDB");
 }
 

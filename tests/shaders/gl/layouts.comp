@@ -1,4 +1,5 @@
 // Every struct that C++ and GLSL share, in a storage block each, all of them active; layout_test.cpp reflects them.
+#include "shaders/shared/ambient_occlusion.h"
 #include "shaders/shared/aovs.h"
 #include "shaders/shared/deep.h"
 #include "shaders/shared/deepshadow.h"
@@ -6,6 +7,7 @@
 #include "shaders/shared/grids.h"
 #include "shaders/shared/lights.h"
 #include "shaders/shared/lists.h"
+#include "shaders/shared/post.h"
 #include "shaders/shared/resolve.h"
 #include "shaders/shared/stress.h"
 #include "shaders/shared/surface.h"

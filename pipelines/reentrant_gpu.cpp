@@ -1,0 +1,154 @@
+#include "pipelines/reentrant_gpu.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/error.h"
+#include "gl/commands.h"
+#include "gl/program.h"
+#include "scene/visible_hull.h"
+#include "shaders/shared/bindings.h"
+
+namespace sfumato::pipelines {
+
+using gl::Profiler;
+
+namespace {
+
+constexpr int maxDispatches = 10000;  // no sane segment needs so many
+
+// Translucent instances that are seen, from back to front by their centres.
+std::vector<size_t> backToFront(const SceneGpu& scene, const FrameView& view) {
+  const glm::dmat4 viewFromWorld = glm::inverse(view.camera.worldFromView);
+  const std::vector<glm::dmat4> boxes = scene::boundingBoxes(scene.scene());
+  const auto depth = [&](size_t instance) {
+    return -(viewFromWorld * boxes[instance] * glm::dvec4(0.5, 0.5, 0.5, 1)).z;
+  };
+  std::vector<size_t> order;
+  for (size_t i = 0; i < boxes.size(); ++i)
+    if (scene.geometry().isTranslucent(i) && !view.seen[i].empty()) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return depth(a) > depth(b); });
+  return order;
+}
+
+std::vector<LayerDraw> translucentPasses(const LayeredFrame& frame, const FinishedLight& finished) {
+  const LayerDraw all{
+      .surfaces = LayerDraw::Surfaces::Translucent, .before = &finished.seen, .stencil = drawn};
+  if (!frame.scene().geometry().has(Layer::Translucent)) return {};
+  if (frame.options().passes == Passes::One) return {all};
+  std::vector<LayerDraw> passes;
+  const auto add = [&](size_t instance, gl::Cull cull) {
+    passes.push_back(all);
+    passes.back().instance = instance;
+    passes.back().cull = cull;
+  };
+  for (const size_t instance : backToFront(frame.scene(), frame.view())) {
+    if (frame.scene().geometry().isDoubleSided(instance)) add(instance, gl::Cull::Front);
+    add(instance, gl::Cull::Back);
+  }
+  return passes;
+}
+
+enum class Segment { BehindLayer, ToCamera };
+
+// What comes through the smoke of a segment of each ray, and through the layer's surface before it. How many
+// rays have one.
+size_t gather(LayeredFrame& frame, const SurfaceLayer& layer, const FinishedLight& finished, Segment segment,
+              const Walk& walk) {
+  const Profiler::Scope time(frame.device().profiler(), "walk");
+  gl::ShaderDefines defines = frame.lightingDefines();
+  if (segment == Segment::ToCamera) defines.emplace_back("TO_CAMERA", "1");
+  const gl::Program& program = frame.device().program({"pipelines/reentrant_segment.comp"}, defines);
+  gl::Buffer counters(frame.device(), "walk counters", sizeof(shared::ResolveCounters));
+  shared::ResolveParams params = frame.params();
+  params.march.z = static_cast<float>(frame.options().refraction);
+  params.options.x = 1;
+  params.options.w = static_cast<int>(frame.pixels());
+  size_t gathered = 0;
+  for (int i = 0;; ++i) {
+    base::check(i < maxDispatches, "a segment ends");
+    frame.bind(params);
+    layer.bind();
+    finished.radiance.bind(TEXTURE_FINISHED_LIGHT);
+    finished.seen.depth.bind(TEXTURE_FINISHED_DEPTH);
+    counters.clear();
+    counters.bindStorage(STORAGE_COUNTERS);
+    walk.rays.bindStorage(STORAGE_RAYS);
+    gl::dispatchLinear(program, frame.pixels());
+    gl::storageBarrier();
+    const auto counted = counters.readValue<shared::ResolveCounters>();
+    frame.statistics.cutWalks += counted.boundHit;
+    gathered += counted.groups;
+    if (counted.unfinished == 0) return gathered;
+    params.options.x = 0;
+  }
+}
+
+}  // namespace
+
+FinishedLight noLight(const LayeredFrame& frame) {
+  const bool table = frame.options().storage == Storage::Table;
+  const glm::ivec3 size(frame.view().width, frame.view().height, 1);
+  FinishedLight light;
+  light.radiance = gl::Texture(frame.device(), "finished light",
+                               {.format = table ? gl::Format::RGBA16F : gl::Format::RGBA32F, .size = size});
+  light.seen.depth =
+      gl::Texture(frame.device(), "finished depth", {.format = gl::Format::R32F, .size = size});
+  const gl::Framebuffer target(std::vector<const gl::Texture*>{&light.radiance, &light.seen.depth}, nullptr);
+  target.clearColour(0, glm::vec4(0.f));
+  target.clearColour(1, glm::vec4(NOTHING_SEEN));
+  return light;
+}
+
+void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* background,
+               const std::optional<gl::StencilTest>& mask, const FinishedLight& light) {
+  const Profiler::Scope time(frame.device().profiler(), "lighting");
+  const gl::Framebuffer start(std::vector<const gl::Texture*>{&light.radiance, &light.seen.depth},
+                              &layer.depthTest);
+  gl::DrawState state{
+      .program = &frame.device().program({"pipelines/whole_image.vert", "pipelines/reentrant_start.frag"},
+                                         frame.storageDefines()),
+      .target = &start,
+      .viewport = {0, 0, frame.view().width, frame.view().height},
+      .stencil = mask};
+  frame.bind(frame.params());
+  layer.bind();
+  gl::setDrawState(state);
+  gl::drawGenerated(frame.device(), 3, 1);
+
+  const gl::Framebuffer target(std::vector<const gl::Texture*>{&light.radiance}, &layer.depthTest);
+  frame.addLights(layer, target, true, mask);
+  if (background == nullptr) return;
+  state.program =
+      &frame.device().program({"pipelines/whole_image.vert", "pipelines/reentrant_background.frag"});
+  state.target = &target;
+  state.blend = gl::Blend::Add;
+  background->rays.bindStorage(STORAGE_RAYS);
+  gl::setDrawState(state);
+  gl::drawGenerated(frame.device(), 3, 1);
+}
+
+ReentrantPipeline::ReentrantPipeline(gl::Device& device, const scene::Scene& scene,
+                                     std::span<const volumes::Medium> media,
+                                     const volumes::GridOptions& gridOptions)
+    : scene_(device, scene, media, gridOptions) {}
+
+Frame ReentrantPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
+                                const FrameOptions& options) {
+  LayeredFrame frame(scene_, camera, width, height, quality);
+  const FinishedLight finished = noLight(frame);
+  const SurfaceLayer layer = frame.layer("layer");
+  frame.draw(layer, {.stencil = drawn});
+  shadeOver(frame, layer, nullptr, whereDrawn, finished);
+  const Walk walk = frame.startWalk();
+  for (const LayerDraw& pass : translucentPasses(frame, finished)) {
+    frame.draw(layer, pass);
+    if (gather(frame, layer, finished, Segment::BehindLayer, walk) > 0)
+      shadeOver(frame, layer, &walk, whereDrawn, finished);
+  }
+  gather(frame, layer, finished, Segment::ToCamera, walk);
+  options.onTile();
+  return frame.finish(walk);
+}
+
+}  // namespace sfumato::pipelines

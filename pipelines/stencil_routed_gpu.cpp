@@ -1,0 +1,308 @@
+#include "pipelines/stencil_routed_gpu.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "gl/commands.h"
+#include "gl/program.h"
+#include "pipelines/layers_gpu.h"
+#include "pipelines/tiles.h"
+#include "shaders/shared/bindings.h"
+
+namespace sfumato::pipelines {
+
+using gl::Profiler;
+
+namespace {
+
+constexpr int taken = 2;  // the stencil value of the sample that takes the next fragment
+constexpr int highestStencil = 255;
+constexpr size_t usualBandBytes = size_t{512} << 20;
+constexpr int maxDispatches = 10000;  // no sane band needs so many
+
+int passesFor(int fragments, int samples) {
+  return (fragments + samples - 1) / samples;
+}
+
+gl::ShaderDefines samplesDefine(int samples) {
+  return {{"ROUTED_SAMPLES", std::to_string(samples)}};
+}
+
+gl::Texture stencilFor(gl::Device& device, glm::ivec2 size, int samples) {
+  return gl::Texture(
+      device, "routing stencil",
+      {.format = gl::Format::Depth32FStencil8, .size = {size.x, size.y, 1}, .samples = samples});
+}
+
+// Sample i of every pixel begins with `first` + i.
+void startStencil(gl::Device& device, const gl::Texture& stencil, int samples, int first) {
+  const gl::Framebuffer target({}, &stencil);
+  gl::DrawState state{
+      .program = &device.program({"pipelines/whole_image.vert", "pipelines/stencil_only.frag"}),
+      .target = &target,
+      .viewport = {0, 0, target.size().x, target.size().y}};
+  for (int i = 0; i < samples; ++i) {
+    state.stencil = gl::StencilTest{.reference = first + i, .passed = gl::StencilChange::Replace};
+    state.sampleMask = 1u << i;
+    gl::setDrawState(state);
+    gl::drawGenerated(device, 3, 1);
+  }
+}
+
+// Draws what comes into the samples that take it; all samples of a pixel count it.
+gl::DrawState routing(const gl::Program& program, const gl::Framebuffer& target, glm::ivec4 viewport,
+                      bool multisample = false) {
+  return {.program = &program,
+          .target = &target,
+          .viewport = viewport,
+          .stencil = gl::StencilTest{.compare = gl::Compare::Equal,
+                                     .reference = taken,
+                                     .passed = gl::StencilChange::Decrement,
+                                     .failed = gl::StencilChange::Decrement},
+          .multisample = multisample};
+}
+
+// Samples of a pixel that a fragment at its centre can be routed to: one where the driver looks at the
+// stencil value of one sample and writes to all (Mesa's llvmpipe), or still asks which samples a triangle
+// covers.
+int routableSamples(gl::Device& device) {
+  const int samples = device.limits().samples;
+  if (samples <= 1) return 1;
+  const gl::Texture image(device, "routing probe", {.format = gl::Format::R32UI, .samples = samples});
+  const gl::Texture stencil = stencilFor(device, {1, 1}, samples);
+  const gl::Framebuffer target(std::vector<const gl::Texture*>{&image}, &stencil);
+  target.clearColour(0, glm::uvec4(0));
+  startStencil(device, stencil, samples, taken);
+  gl::setDrawState(routing(device.program({"pipelines/routing_probe.vert", "pipelines/routing_probe.frag"}),
+                           target, {0, 0, 1, 1}));
+  gl::drawGenerated(device, 3, 1);
+  gl::Buffer counters(device, "walk counters", sizeof(shared::ResolveCounters));
+  counters.clear();
+  counters.bindStorage(STORAGE_COUNTERS);
+  image.bind(TEXTURE_ROUTED_KEYS);
+  gl::dispatch(device.program({"pipelines/routing_probe.comp"}, samplesDefine(samples)), {1, 1, 1});
+  gl::storageBarrier();
+  return counters.readValue<shared::ResolveCounters>().groups == 1 ? samples : 1;
+}
+
+// Translucent fragments of one band of the image.
+struct Samples {
+  gl::Texture surface[3];  // arrays: a layer a pass
+  gl::Texture keys;        // depth, number
+  gl::Texture stencil;
+};
+
+class Router {
+ public:
+  Router(LayeredFrame& frame, const SurfaceLayer& opaque, int samples, bool multisample)
+      : frame_(frame),
+        opaque_(opaque),
+        samples_(samples),
+        multisample_(multisample),
+        bandView_(frame.device(), "camera view", sizeof(shared::ViewParams)),
+        passBlock_(frame.device(), "layer pass", sizeof(shared::ResolveParams)) {
+    count();
+  }
+
+  // Takes the rays past all translucent surfaces.
+  void walk(Walk& walk) {
+    for (int first = 0; first < frame_.view().height;) {
+      const Band band = bandFrom(first);
+      if (band.fragments > 0) {
+        useView(band.tile);
+        walkPast(band, route(band), walk);
+      }
+      walk.layers = std::max(walk.layers, band.fragments);
+      first += band.tile.height;
+    }
+  }
+
+ private:
+  struct Band {
+    Tile tile;
+    int fragments = 0;  // of its fullest pixel
+  };
+
+  // How many fragments each pixel has, and the most in each row.
+  void count() {
+    const Profiler::Scope time(frame_.device().profiler(), "fragment count");
+    const FrameView& view = frame_.view();
+    counts_ = gl::Texture(frame_.device(), "fragment counts",
+                          {.format = gl::Format::R32F, .size = {view.width, view.height, 1}});
+    const gl::Framebuffer target(std::vector<const gl::Texture*>{&counts_}, nullptr);
+    target.clearColour(0, glm::vec4(0.f));
+    useView({0, 0, view.width, view.height});
+    opaque_.depth.bind(TEXTURE_OPAQUE_DEPTH);
+    gl::setDrawState(
+        {.program = &frame_.device().program({"scene/surface.vert", "pipelines/fragment_count.frag"},
+                                             frame_.scene().geometry().defines()),
+         .target = &target,
+         .viewport = {0, 0, view.width, view.height},
+         .blend = gl::Blend::Add});
+    frame_.scene().geometry().draw(Layer::Translucent, true);
+    std::vector<float> counted(frame_.pixels());
+    counts_.read(std::as_writable_bytes(std::span(counted)));
+    for (auto row = counted.begin(); row != counted.end(); row += view.width)
+      fullest_.push_back(static_cast<int>(*std::max_element(row, row + view.width)));
+  }
+
+  size_t bandBytes(int rows, int fragments) const {
+    const size_t fragmentBytes = frame_.options().storage == Storage::Table ? 20 : 48;
+    const auto passes = static_cast<size_t>(passesFor(fragments, samples_));
+    const size_t ofSample = passes * fragmentBytes + 8;
+    return static_cast<size_t>(rows) * static_cast<size_t>(frame_.view().width) *
+           (static_cast<size_t>(samples_) * ofSample + 8);
+  }
+
+  // As many rows as fit.
+  Band bandFrom(int first) const {
+    const size_t budget = frame_.quality().lists.budgetBytes;
+    const size_t allowed = budget > 0 ? budget : usualBandBytes;
+    Band band{{0, first, frame_.view().width, 1}, fullest_[static_cast<size_t>(first)]};
+    for (int next = first + 1; next < frame_.view().height; ++next) {
+      const int fragments = std::max(band.fragments, fullest_[static_cast<size_t>(next)]);
+      if (bandBytes(band.tile.height + 1, fragments) > allowed) break;
+      ++band.tile.height;
+      band.fragments = fragments;
+    }
+    return band;
+  }
+
+  void useView(const Tile& tile) {
+    shared::ViewParams view = frame_.view().params;
+    view.tile = tile.corners();
+    bandView_.writeValue(view);
+    bandView_.bindUniform(UNIFORM_VIEW);
+  }
+
+  Samples samplesFor(const Band& band) const {
+    const glm::ivec3 size(band.tile.width, band.tile.height, passesFor(band.fragments, samples_));
+    const auto image = [&](gl::Format format) {
+      return gl::Texture(frame_.device(), "routed fragments",
+                         {.format = format, .size = size, .samples = samples_, .array = true});
+    };
+    Samples samples;
+    for (size_t i = 0; i < std::size(samples.surface); ++i)
+      samples.surface[i] = image(frame_.surfaceFormats()[i]);
+    samples.keys = image(gl::Format::RG32UI);
+    samples.stencil = stencilFor(frame_.device(), {size.x, size.y}, samples_);
+    return samples;
+  }
+
+  // All fragments of a band, in the order in which they are drawn.
+  Samples route(const Band& band) {
+    const Profiler::Scope time(frame_.device().profiler(), "routing");
+    Samples samples = samplesFor(band);
+    const int pagePasses = (highestStencil - taken + 1) / samples_;
+    gl::Texture pageEnd;
+    for (int pass = 0; pass < passesFor(band.fragments, samples_); ++pass) {
+      if (pass > 0 && pass % pagePasses == 0) pageEnd = lastFragments(band, samples, pass - 1);
+      startStencil(frame_.device(), samples.stencil, samples_, taken + pass % pagePasses * samples_);
+      routePass(band, samples, pass, pass >= pagePasses ? &pageEnd : nullptr);
+    }
+    return samples;
+  }
+
+  void routePass(const Band& band, const Samples& samples, int pass, const gl::Texture* pageEnd) {
+    const gl::Framebuffer target(std::vector<const gl::Texture*>{&samples.surface[0], &samples.surface[1],
+                                                                 &samples.surface[2], &samples.keys},
+                                 &samples.stencil, pass);
+    target.clearColour(3, glm::uvec4(0xffffffffu));
+    const GeometryGpu& geometry = frame_.scene().geometry();
+    gl::ShaderDefines defines = gl::joined(geometry.defines(), frame_.storageDefines());
+    defines = gl::joined(defines, {{"TRANSLUCENT", "1"}, {"IN_FRONT", "1"}, {"ROUTED", "1"}});
+    opaque_.depth.bind(TEXTURE_OPAQUE_DEPTH);
+    if (pageEnd != nullptr) {
+      defines.emplace_back("PAGED", "1");
+      pageEnd->bind(TEXTURE_ROUTED_PAGE);
+    }
+    gl::setDrawState(routing(frame_.device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
+                             target, {-band.tile.x, -band.tile.y, frame_.view().width, frame_.view().height},
+                             multisample_));
+    geometry.draw(Layer::Translucent, true);
+  }
+
+  // The number of each pixel's last fragment in a pass; the highest one where it has none.
+  gl::Texture lastFragments(const Band& band, const Samples& samples, int pass) {
+    gl::Texture last(frame_.device(), "routing page",
+                     {.format = gl::Format::R32UI, .size = {band.tile.width, band.tile.height, 1}});
+    const gl::Framebuffer target(std::vector<const gl::Texture*>{&last}, nullptr);
+    passBlock_.writeValue(shared::ResolveParams{.options = {pass, 0, 0, 0}});
+    passBlock_.bindUniform(UNIFORM_PASS);
+    samples.keys.bind(TEXTURE_ROUTED_KEYS);
+    gl::setDrawState(
+        {.program = &frame_.device().program({"pipelines/whole_image.vert", "pipelines/routed_page.frag"},
+                                             samplesDefine(samples_)),
+         .target = &target,
+         .viewport = {0, 0, band.tile.width, band.tile.height}});
+    gl::drawGenerated(frame_.device(), 3, 1);
+    return last;
+  }
+
+  void walkPast(const Band& band, const Samples& samples, const Walk& walk) {
+    const Profiler::Scope time(frame_.device().profiler(), "walk");
+    const gl::Program& program = frame_.device().program(
+        {"pipelines/routed_walk.comp"}, gl::joined(frame_.lightingDefines(), samplesDefine(samples_)));
+    gl::Buffer counters(frame_.device(), "walk counters", sizeof(shared::ResolveCounters));
+    gl::Buffer met(frame_.device(), "routed walk", band.tile.pixels() * sizeof(glm::uvec2));
+    shared::ResolveParams params = frame_.params();
+    params.options.w = static_cast<int>(band.tile.pixels());
+    for (int i = 0;; ++i) {
+      base::check(i < maxDispatches, "the walk ends");
+      frame_.bind(params);
+      bandView_.bindUniform(UNIFORM_VIEW);
+      for (int j = 0; j < 2; ++j) samples.surface[j].bind(TEXTURE_SURFACE_0 + static_cast<unsigned>(j));
+      samples.surface[2].bind(TEXTURE_SURFACE_2);
+      samples.keys.bind(TEXTURE_ROUTED_KEYS);
+      counts_.bind(TEXTURE_ROUTED_COUNTS);
+      counters.clear();
+      counters.bindStorage(STORAGE_COUNTERS);
+      met.bindStorage(STORAGE_ROUTED_MET);
+      walk.rays.bindStorage(STORAGE_RAYS);
+      gl::dispatchLinear(program, band.tile.pixels());
+      gl::storageBarrier();
+      const auto counted = counters.readValue<shared::ResolveCounters>();
+      frame_.statistics.cutWalks += counted.boundHit;
+      if (counted.unfinished == 0) return;
+    }
+  }
+
+  LayeredFrame& frame_;
+  const SurfaceLayer& opaque_;
+  const int samples_;
+  const bool multisample_;
+  gl::Buffer bandView_;
+  gl::Buffer passBlock_;
+  gl::Texture counts_;
+  std::vector<int> fullest_;  // of each row
+};
+
+}  // namespace
+
+StencilRoutedPipeline::StencilRoutedPipeline(gl::Device& device, const scene::Scene& scene,
+                                             std::span<const volumes::Medium> media,
+                                             const volumes::GridOptions& gridOptions)
+    : scene_(device, scene, media, gridOptions), mostSamples_(routableSamples(device)) {}
+
+void StencilRoutedPipeline::coverWholePixels() {
+  mostSamples_ = std::max(1, scene_.device().limits().samples);
+  multisample_ = true;
+}
+
+Frame StencilRoutedPipeline::render(const scene::Camera& camera, int width, int height,
+                                    const Quality& quality, const FrameOptions& options) {
+  LayeredFrame frame(scene_, camera, width, height, quality);
+  const SurfaceLayer opaque = frame.layer("opaque layer");
+  frame.draw(opaque, {});
+  Walk walk = frame.startWalk();
+  const int wanted = quality.deferred.samples;
+  const int samples = wanted > 0 ? std::min(wanted, mostSamples_) : mostSamples_;
+  if (scene_.geometry().has(Layer::Translucent)) Router(frame, opaque, samples, multisample_).walk(walk);
+  frame.walkTo(opaque, frame.light(opaque), true, walk);
+  options.onTile();
+  return frame.finish(walk);
+}
+
+}  // namespace sfumato::pipelines

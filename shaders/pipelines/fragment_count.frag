@@ -1,0 +1,11 @@
+// One for each translucent fragment before the opaque surfaces, to be added up.
+#include "shaders/scene/material.glsl"
+
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+layout(location = 0) out float one;
+
+void main() {
+  vec4 base = baseColour();
+  if (base.a == 0.0 || fragmentDepth() >= texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy), 0).r) discard;
+  one = 1.0;
+}

@@ -1,0 +1,14 @@
+// The numbers of the last fragments that are kept in samples: those of later pages come after them. params.options.x is the
+// layer that is full where there are any.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/resolve.h"
+
+layout(std140, binding = UNIFORM_PASS) uniform Pass {
+  ResolveParams params;
+};
+layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DMSArray keys;
+layout(location = 0) out uint last;
+
+void main() {
+  last = texelFetch(keys, ivec3(ivec2(gl_FragCoord.xy), params.options.x), ROUTED_SAMPLES - 1).y;
+}

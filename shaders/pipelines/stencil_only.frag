@@ -1,0 +1,2 @@
+// For draws of which only the stencil test counts.
+void main() {}
