@@ -36,6 +36,7 @@ class ReentrantPipeline : public Pipeline {
   // light, 12 in table storage.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
+  const SceneGpu& scene() const override { return scene_; }
 
  private:
   SceneGpu scene_;

@@ -30,10 +30,6 @@ struct Taps {
   vec4 y;
 };
 
-ivec2 tapOffset(int i, int side) {
-  return ivec2(i & (side - 1), i >> (side >> 1));  // a division takes long where it is done lane by lane
-}
-
 Taps tapsAround(vec2 place, int side) {
   Taps taps = Taps(ivec2(floor(place)), vec4(1.0), vec4(1.0));
   if (side == 1) return taps;

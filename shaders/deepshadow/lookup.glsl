@@ -105,14 +105,10 @@ vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
   vec3 tau = vec3(0.0);
 #if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
   Taps taps = tapsAround(smokePlace(face, place), 2);
-  uint asked = 0u;  // those that hold any smoke
-  for (int i = 0; i < 4; ++i)
-    if (knotCount(shadowTexel(smokeTexelNumber(face, taps.first + tapOffset(i, 2)))) != 0u) asked |= 1u << i;
-  while (asked != 0u) {
-    ivec2 offset = tapOffset(findLSB(asked), 2);
-    asked &= asked - 1u;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
     ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
-    tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
+    if (knotCount(texel) != 0u) tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
   }
 #endif
   return exp(-tau);
@@ -139,7 +135,7 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = tapOffset(i, side);
+    ivec2 offset = ivec2(i % side, i / side);
     sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
   return sum * (side == 1 ? nearestSmokeTransmittance(face, place, depth) : smokeTransmittance(face, place, depth));
@@ -179,7 +175,7 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
   float told = 0.0;
   vec3 doubtful = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = tapOffset(i, side);
+    ivec2 offset = ivec2(i % side, i / side);
     float share = taps.x[offset.x] * taps.y[offset.y];
     ivec2 at = taps.first + offset;
     vec2 xy = (vec2(at) + 0.5 - face.projection.zw) / face.projection.xy;
