@@ -255,5 +255,23 @@ TEST_F(MapsGpu, WindowsAndGrowingPoolsGiveTheSameFunctions) {
   EXPECT_LT(worstError(map, known), 1.0 / 512 + 1.0 / 400);  // coarser steps than above
 }
 
+// Texels of surfaces may be much narrower than voxels; the smoke then has texels of its own, and the function
+// between them is still that of the smoke.
+TEST_F(MapsGpu, SmokeIsNoFinerThanItsVoxels) {
+  for (const Light& light : {tests::directionalLight({0.4, -1, 0.2}, dvec3(1)),
+                             tests::spotLight({1, 5, 2}, {0, 1, 0}, dvec3(1), 0.2, 0.5)}) {
+    const KnownScene known = smokeUnder(light);
+    build(known, 512, 1.0 / 512, 0.5);
+    const LightMap coarse = statistics_;
+    const LightFunction map = build(known, 1024, 1.0 / 512, 0.5);
+    EXPECT_LT(coarse.smokeTexels, coarse.texels / 2);
+    EXPECT_EQ(statistics_.smokeTexels, coarse.smokeTexels);
+    EXPECT_EQ(statistics_.texels, 4 * coarse.texels);
+    EXPECT_NEAR(static_cast<double>(statistics_.knotBytes), static_cast<double>(coarse.knotBytes),
+                0.01 * static_cast<double>(coarse.knotBytes));
+    EXPECT_LT(worstError(map, known), 1.0 / 512 + 1.0 / 400);
+  }
+}
+
 }  // namespace
 }  // namespace sfumato::deepshadow
