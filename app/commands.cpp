@@ -223,6 +223,10 @@ void addDeferred(CLI::App& command, RenderOptions& options) {
          options.storage);
   choose("--passes", options.passes, "Of reentrant: for all translucent surfaces, or an object",
          pipelines::passesNames().names, options.passes);
+  command
+      .add_flag("--depth-prepass", options.depthsFirst,
+                "Draw the depths of opaque surfaces first, so that none is shaded that is hidden")
+      ->group("Pipeline");
   add("--layers", options.layers, "Layers that are peeled at most: 1 to 10000, else all")
       ->type_name("N")
       ->check(wholeBetween(1, 10000));
@@ -372,7 +376,7 @@ void applyEffects(const CLI::App& command, RenderOptions& options) {
 void addEffects(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--effects", options.effects,
-                  "low, medium or high: reinhard, mipmap, edges, --ssao and shadow maps to suit; flags win")
+                  "low, medium, high: tone map, bloom, edges, --ssao at once; flags win")
       ->type_name("NAME")
       ->check(oneOf(effectsNames()))
       ->excludes("--reference")

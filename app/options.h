@@ -50,6 +50,7 @@ struct RenderOptions {
   std::optional<glm::dvec3> lookAt;
   std::optional<double> fovDegrees;
   std::optional<double> timeSeconds;  // pose of the scene's animations; none: at rest
+  bool depthsFirst = false;
   std::string pipeline = "lund";
   std::string shadows;  // of a pipeline other than lund: pipelines/deferred_options.h; empty: its own
   std::string interlace = "lines";

@@ -174,6 +174,7 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   if (!options.shadowMemory.empty())
     quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
   quality.scatteringOctaves = options.scatteringOctaves;
+  quality.depthsFirst = options.depthsFirst;
   if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())

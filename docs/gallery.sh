@@ -16,7 +16,7 @@ for scene in out/gallery/*.gltf; do
   if [[ $scene == */many_lights.gltf ]]; then quality+=(--aov lights); fi
   if [[ $scene == */smoke.gltf ]]; then quality+=(--aov shadow-nodes); fi
   if [[ $scene == */multiscatter.gltf ]]; then quality+=(--multiscatter); fi
-  if [[ $scene == */courtyard.gltf ]]; then quality+=(--ssao full); fi
+  if [[ $scene == */courtyard.gltf ]]; then quality+=(--ssao full --ssao-radius 0.5); fi
   echo "== $picture"
   build/release/app/sfumato render "$scene" --res 640x360 "${quality[@]}" -o "$picture" "$@"
 done

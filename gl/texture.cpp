@@ -68,7 +68,8 @@ GLint wrapping(Wrap wrap) {
 }
 
 GLenum targetOf(const TextureDescription& description) {
-  if (description.array) return GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+  if (description.array)
+    return description.samples > 0 ? GL_TEXTURE_2D_MULTISAMPLE_ARRAY : GL_TEXTURE_2D_ARRAY;
   if (description.samples > 0) return GL_TEXTURE_2D_MULTISAMPLE;
   return description.size.z > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D;
 }
@@ -126,12 +127,12 @@ Texture::Texture(Device& device, std::string label, const TextureDescription& de
   while (glGetError() != GL_NO_ERROR) {
   }
   const bool multisample = description.samples > 0;
-  if (description.array)
+  if (description.array && multisample)
     glTexStorage3DMultisample(target_, description.samples, format.internal, size_.x, size_.y, size_.z,
                               GL_TRUE);
   else if (multisample)
     glTexStorage2DMultisample(target_, description.samples, format.internal, size_.x, size_.y, GL_TRUE);
-  else if (target_ == GL_TEXTURE_3D)
+  else if (description.array || target_ == GL_TEXTURE_3D)
     glTexStorage3D(target_, levels, format.internal, size_.x, size_.y, size_.z);
   else
     glTexStorage2D(target_, levels, format.internal, size_.x, size_.y);
@@ -173,7 +174,7 @@ Texture::~Texture() {
 }
 
 bool Texture::isArray() const {
-  return target_ == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+  return target_ == GL_TEXTURE_2D_MULTISAMPLE_ARRAY || target_ == GL_TEXTURE_2D_ARRAY;
 }
 
 void Texture::bind(unsigned unit) const {

@@ -47,7 +47,7 @@ struct TextureDescription {
   Wrap wrapS = Wrap::ClampToEdge;
   Wrap wrapT = Wrap::ClampToEdge;
   int samples = 0;     // a pixel; 0: not a multisample texture (1 is one, with its sample in the middle)
-  bool array = false;  // of size.z multisample layers
+  bool array = false;  // of size.z layers, in place of 3D
 };
 
 class Texture {

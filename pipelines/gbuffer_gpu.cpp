@@ -8,6 +8,24 @@
 
 namespace sfumato::pipelines {
 
+void drawOpaque(gl::Device& device, const GeometryGpu& geometry, gl::DrawState state,
+                const gl::Texture& depthTest, bool depthsFirst) {
+  state.depthTest = true;
+  if (depthsFirst) {
+    const gl::Framebuffer depthsOnly(std::span<const gl::Texture* const>(), &depthTest);
+    gl::DrawState first = state;
+    first.program = &device.program({"scene/surface.vert", "pipelines/depth_only.frag"}, geometry.defines());
+    first.target = &depthsOnly;
+    first.stencil.reset();
+    gl::setDrawState(first);
+    geometry.draw(Layer::Opaque, true);
+    state.depthCompare = gl::Compare::Equal;
+    state.depthWrite = false;
+  }
+  gl::setDrawState(state);
+  geometry.draw(Layer::Opaque, true);
+}
+
 GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   const Tile tile = inputs.tile.value_or(Tile{0, 0, inputs.width, inputs.height});
   const glm::ivec3 size(tile.width, tile.height, 1);
@@ -39,11 +57,11 @@ GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs) {
   if (inputs.baseColour) target.clearColour(3, glm::vec4(0.f));
   target.clearDepth(1.f);
   inputs.view.bindUniform(UNIFORM_VIEW);
-  gl::setDrawState({.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}, defines),
-                    .target = &target,
-                    .viewport = {-tile.x, -tile.y, inputs.width, inputs.height},
-                    .depthTest = true});
-  inputs.geometry.draw(Layer::Opaque, true);
+  drawOpaque(device, inputs.geometry,
+             {.program = &device.program({"scene/surface.vert", "pipelines/gbuffer.frag"}, defines),
+              .target = &target,
+              .viewport = {-tile.x, -tile.y, inputs.width, inputs.height}},
+             depthTest, inputs.depthsFirst);
   result.samplePositions = target.samplePositions();
   // A driver may give more than were asked for; any of them will do.
   if (result.samplePositions.size() > MAX_SAMPLES) result.samplePositions.resize(MAX_SAMPLES);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gl/buffer.h"
+#include "gl/commands.h"
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "pipelines/geometry_gpu.h"
@@ -33,9 +34,15 @@ struct GBufferInputs {
   int samples = 1;           // a pixel
   std::optional<Tile> tile;  // as in the view; none: the whole image
   bool baseColour = false;   // whether it is wanted
+  bool depthsFirst = false;
 };
 
 GBuffer drawGBuffer(gl::Device& device, const GBufferInputs& inputs);
+
+// Draws the opaque surfaces with a state whose depth test is that texture, `depthsFirst`: first their depths
+// alone, so that what is hidden is not shaded (Policarpo and Fonseca 2005, section 3.3.1).
+void drawOpaque(gl::Device& device, const GeometryGpu& geometry, gl::DrawState state,
+                const gl::Texture& depthTest, bool depthsFirst);
 
 // Tells a pass where the samples of a pixel are.
 void setSamples(shared::ResolveParams& params, const GBuffer& gbuffer);

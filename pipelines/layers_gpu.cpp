@@ -7,6 +7,7 @@
 #include "gl/program.h"
 #include "lights/light_reach.h"
 #include "lights/light_scissor.h"
+#include "pipelines/gbuffer_gpu.h"
 #include "scene/light_faces.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/layers.h"
@@ -73,6 +74,7 @@ LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, i
   view_.params.depthRange.z = depthScale(view_.seen, camera);
   viewBlock_.writeValue(view_.params);
   const auto faces = buildShadows(usual.lightsOnce);
+  occlusion_ = scene.drawOcclusion(view_, quality.ambientOcclusion);
   const Profiler::Scope time(device().profiler(), "light lists");
   lightLists_.emplace(device(), lights::LightListInputs{scene.lights(), faces, viewBlock_, width, height,
                                                         std::nullopt, nullptr, quality.lists});
@@ -135,6 +137,10 @@ gl::ShaderDefines LayeredFrame::interlaceDefines() const {
            options().interlace == Interlace::Checkerboard ? "INTERLACE_CHECKERBOARD" : "INTERLACE_LINES"}};
 }
 
+gl::ShaderDefines LayeredFrame::glowDefines() const {
+  return occlusion_ ? gl::joined(lightingDefines(), occlusion_->defines()) : lightingDefines();
+}
+
 const lights::Light& LayeredFrame::light(size_t number) const {
   return scene_.lights()[static_cast<size_t>(lightLists_->order()[number])];
 }
@@ -144,6 +150,7 @@ shared::ResolveParams LayeredFrame::params() const {
   params.march = {quality_.stepVoxels, quality_.throughputCutoff, options().refraction * view_.height, 0};
   params.options = {0, tapsOf(quality_.surfaceShadows) + 8 * tapsOf(quality_.smokeShadows),
                     lightLists_->directionalLights(), 0};
+  params.ambient = glm::vec4(scene_.scene().ambient, quality_.ambientOcclusion.radius);
   return params;
 }
 
@@ -155,6 +162,7 @@ void LayeredFrame::bind(const shared::ResolveParams& params) {
   if (shadows_) shadows_->bind();
   if (interlaced_) interlaced_->bind();
   scene_.volumes().bind();
+  if (occlusion_) occlusion_->bind();
 }
 
 std::array<gl::Format, 3> LayeredFrame::surfaceFormats() const {
@@ -206,11 +214,17 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
       what.behind->id->bind(TEXTURE_PEELED_ID);
     }
     viewBlock_.bindUniform(UNIFORM_VIEW);
-    gl::setDrawState({.program = &device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
-                      .target = &framebuffer,
-                      .viewport = {0, 0, view_.width, view_.height},
-                      .depthTest = true,
-                      .stencil = what.stencil});
+    const gl::DrawState state{
+        .program = &device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
+        .target = &framebuffer,
+        .viewport = {0, 0, view_.width, view_.height},
+        .depthTest = true,
+        .stencil = what.stencil};
+    if (surfaces == Layer::Opaque) {
+      drawOpaque(device(), scene_.geometry(), state, target.depthTest, quality_.depthsFirst);
+      return;
+    }
+    gl::setDrawState(state);
     if (what.instance)
       scene_.geometry().drawInstance(*what.instance, what.cull);
     else
@@ -245,9 +259,10 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
       {.format = table ? gl::Format::RGBA8 : gl::Format::RGBA32F, .size = {view_.width, view_.height, 1}});
   const gl::Framebuffer target(std::vector<const gl::Texture*>{&result}, nullptr);
   gl::DrawState state{.program = &device().program(
-                          {"pipelines/whole_image.vert", "pipelines/layer_glow.frag"}, storageDefines()),
+                          {"pipelines/whole_image.vert", "pipelines/layer_glow.frag"}, glowDefines()),
                       .target = &target,
                       .viewport = {0, 0, view_.width, view_.height}};
+  bind(params());
   layer.bind();
   gl::setDrawState(state);
   gl::drawGenerated(device(), 3, 1);
@@ -304,7 +319,7 @@ size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light,
 size_t LayeredFrame::dispatchWalk(const gl::Program& program, shared::ResolveParams params,
                                   const std::function<void()>& bindInputs, Walk& walk) {
   gl::Buffer counters(device(), "walk counters", sizeof(shared::ResolveCounters));
-  params.options.w = static_cast<int>(pixels());
+  if (params.options.w == 0) params.options.w = static_cast<int>(pixels());
   size_t met = 0;
   for (int i = 0;; ++i) {
     base::check(i < maxDispatches, "the walk ends");
@@ -313,7 +328,7 @@ size_t LayeredFrame::dispatchWalk(const gl::Program& program, shared::ResolvePar
     counters.clear();
     counters.bindStorage(STORAGE_COUNTERS);
     walk.rays.bindStorage(STORAGE_RAYS);
-    gl::dispatchLinear(program, pixels());
+    gl::dispatchLinear(program, static_cast<size_t>(params.options.w));
     gl::storageBarrier();
     const auto counted = counters.readValue<shared::ResolveCounters>();
     statistics.cutWalks += counted.boundHit;

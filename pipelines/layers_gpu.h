@@ -84,8 +84,8 @@ class LayeredFrame {
   // one.
   size_t walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk);
 
-  // Dispatches a program that takes all rays on, until none says that it is unfinished. How many met a
-  // surface.
+  // Dispatches a program that takes all rays on, or params.options.w of them, until none says that it is
+  // unfinished. How many met a surface.
   size_t dispatchWalk(const gl::Program& program, shared::ResolveParams params,
                       const std::function<void()>& bindInputs, Walk& walk);
 
@@ -102,6 +102,8 @@ class LayeredFrame {
   gl::ShaderDefines storageDefines() const;
   gl::ShaderDefines interlaceDefines() const;
   std::array<gl::Format, 3> surfaceFormats() const;
+  // Of programs that begin with what surfaces give by themselves (shaders/pipelines/layer_ambient.glsl).
+  gl::ShaderDefines glowDefines() const;
   // Of programs that march or light surfaces.
   gl::ShaderDefines lightingDefines() const;
   // Lights in the order of the light lists.
@@ -132,6 +134,7 @@ class LayeredFrame {
   std::optional<deepshadow::InterlacedMaps> interlaced_;
   std::optional<ShadowInputs> turns_;  // where a map is built for each light in its turn
   std::optional<lights::LightLists> lightLists_;
+  std::optional<AmbientOcclusion> occlusion_;
 };
 
 // An image of a texture of 32-bit floats; the rows of images count from the top.

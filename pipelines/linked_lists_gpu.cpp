@@ -304,7 +304,7 @@ class TilePainter {
           std::clamp(inputs_.quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
       const bool baseColour = frame_.aovs.contains(Aov::Albedo);
       return drawGBuffer(device_, {inputs_.scene.geometry(), view_, inputs_.width, inputs_.height, samples,
-                                   tile, baseColour});
+                                   tile, baseColour, inputs_.quality.depthsFirst});
     }();
     drawWindow(gbuffer, tile);
     ++frame_.statistics.tiles;
@@ -393,25 +393,6 @@ class TilePainter {
   Frame& frame_;
 };
 
-// Of the whole image at once, from a G-buffer of its own: a tile's surfaces are occluded by those of others.
-std::optional<AmbientOcclusion> occlusionOf(const SceneGpu& scene, const FrameView& view,
-                                            const AmbientOcclusionOptions& options) {
-  if (options.size == OcclusionSize::Off || scene.scene().ambient == glm::dvec3(0)) return std::nullopt;
-  gl::Device& device = scene.device();
-  gl::Buffer viewBlock(device, "camera view", sizeof(shared::ViewParams));
-  shared::ViewParams params = view.params;
-  params.tile = params.window = {0, 0, view.width, view.height};
-  viewBlock.writeValue(params);
-  const GBuffer gbuffer = [&] {
-    const Profiler::Scope time(device.profiler(), "occlusion G-buffer");
-    return drawGBuffer(
-        device,
-        {.geometry = scene.geometry(), .view = viewBlock, .width = view.width, .height = view.height});
-  }();
-  return drawAmbientOcclusion(device,
-                              {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height, options});
-}
-
 }  // namespace
 
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
@@ -435,7 +416,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   }
   for (const size_t light : options.deepShadows)
     frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
-  const auto occlusion = occlusionOf(scene_, view, quality.ambientOcclusion);
+  const auto occlusion = scene_.drawOcclusion(view, quality.ambientOcclusion);
   const TileInputs inputs{scene_,      shadows, quality, occlusion ? &*occlusion : nullptr,
                           view.params, width,   height,  options.countLookups,
                           deepLimits};

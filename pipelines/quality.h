@@ -28,6 +28,7 @@ struct Quality {
   bool exactShadowError = true;
   size_t shadowMemory = 0;           // bytes of all maps together; 0: what the device reads
   bool halfResolutionSmoke = false;  // marched once for 2 x 2 pixels where these see about as far
+  bool depthsFirst = false;          // opaque surfaces are drawn twice, depths alone first
   double throughputCutoff = 1e-3;    // a ray ends where less than this of what is behind would be seen
   ShadowFilter surfaceShadows = ShadowFilter::Bilinear;
   ShadowFilter smokeShadows = ShadowFilter::Nearest;

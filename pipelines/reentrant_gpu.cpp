@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "scene/visible_hull.h"
@@ -14,8 +13,6 @@ namespace sfumato::pipelines {
 using gl::Profiler;
 
 namespace {
-
-constexpr int maxDispatches = 10000;  // no sane segment needs so many
 
 // Translucent instances that are seen, from back to front by their centres.
 std::vector<size_t> backToFront(const SceneGpu& scene, const FrameView& view) {
@@ -54,34 +51,20 @@ enum class Segment { BehindLayer, ToCamera };
 // What comes through the smoke of a segment of each ray, and through the layer's surface before it. How many
 // rays have one.
 size_t gather(LayeredFrame& frame, const SurfaceLayer& layer, const FinishedLight& finished, Segment segment,
-              const Walk& walk) {
+              Walk& walk) {
   const Profiler::Scope time(frame.device().profiler(), "walk");
   gl::ShaderDefines defines = frame.lightingDefines();
   if (segment == Segment::ToCamera) defines.emplace_back("TO_CAMERA", "1");
-  const gl::Program& program = frame.device().program({"pipelines/reentrant_segment.comp"}, defines);
-  gl::Buffer counters(frame.device(), "walk counters", sizeof(shared::ResolveCounters));
   shared::ResolveParams params = frame.params();
-  params.march.z = static_cast<float>(frame.options().refraction);
-  params.options.x = 1;
-  params.options.w = static_cast<int>(frame.pixels());
-  size_t gathered = 0;
-  for (int i = 0;; ++i) {
-    base::check(i < maxDispatches, "a segment ends");
-    frame.bind(params);
-    layer.bind();
-    finished.radiance.bind(TEXTURE_FINISHED_LIGHT);
-    finished.seen.depth.bind(TEXTURE_FINISHED_DEPTH);
-    counters.clear();
-    counters.bindStorage(STORAGE_COUNTERS);
-    walk.rays.bindStorage(STORAGE_RAYS);
-    gl::dispatchLinear(program, frame.pixels());
-    gl::storageBarrier();
-    const auto counted = counters.readValue<shared::ResolveCounters>();
-    frame.statistics.cutWalks += counted.boundHit;
-    gathered += counted.groups;
-    if (counted.unfinished == 0) return gathered;
-    params.options.x = 0;
-  }
+  params.options.x = ++walk.layers;
+  return frame.dispatchWalk(
+      frame.device().program({"pipelines/reentrant_segment.comp"}, defines), params,
+      [&] {
+        layer.bind();
+        finished.radiance.bind(TEXTURE_FINISHED_LIGHT);
+        finished.seen.depth.bind(TEXTURE_FINISHED_DEPTH);
+      },
+      walk);
 }
 
 }  // namespace
@@ -107,7 +90,7 @@ void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* backg
                               &layer.depthTest);
   gl::DrawState state{
       .program = &frame.device().program({"pipelines/whole_image.vert", "pipelines/reentrant_start.frag"},
-                                         frame.storageDefines()),
+                                         frame.glowDefines()),
       .target = &start,
       .viewport = {0, 0, frame.view().width, frame.view().height},
       .stencil = mask};
@@ -140,7 +123,7 @@ Frame ReentrantPipeline::render(const scene::Camera& camera, int width, int heig
   const SurfaceLayer layer = frame.layer("layer");
   frame.draw(layer, {.stencil = drawn});
   shadeOver(frame, layer, nullptr, whereDrawn, finished);
-  const Walk walk = frame.startWalk();
+  Walk walk = frame.startWalk();
   for (const LayerDraw& pass : translucentPasses(frame, finished)) {
     frame.draw(layer, pass);
     if (gather(frame, layer, finished, Segment::BehindLayer, walk) > 0)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipelines/gbuffer_gpu.h"
 #include "pipelines/shadow_resolution.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
@@ -61,6 +62,20 @@ gl::ShaderDefines SceneGpu::lightingDefines(const Quality& quality) const {
   if (quality.scatteringOctaves > 0)
     defines.emplace_back("SCATTER_OCTAVES", std::to_string(quality.scatteringOctaves));
   return gl::joined(defines, volumes_.defines());
+}
+
+std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view,
+                                                        const AmbientOcclusionOptions& options) const {
+  if (options.size == OcclusionSize::Off || scene_.ambient == glm::dvec3(0)) return std::nullopt;
+  gl::Buffer viewBlock(device_, "camera view", sizeof(shared::ViewParams));
+  viewBlock.writeValue(view.params);
+  const GBuffer gbuffer = [&] {
+    const Profiler::Scope time(device_.profiler(), "occlusion G-buffer");
+    return drawGBuffer(
+        device_, {.geometry = geometry_, .view = viewBlock, .width = view.width, .height = view.height});
+  }();
+  return drawAmbientOcclusion(device_,
+                              {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height, options});
 }
 
 ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& quality) const {

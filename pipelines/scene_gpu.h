@@ -3,11 +3,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "deepshadow/maps_gpu.h"
 #include "gl/device.h"
+#include "pipelines/ambient_occlusion_gpu.h"
 #include "pipelines/frame_gpu.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/quality.h"
@@ -52,6 +54,10 @@ class SceneGpu {
 
   // Of programs that light surfaces or march through smoke.
   gl::ShaderDefines lightingDefines(const Quality& quality) const;
+  // Of the whole image at once, from a G-buffer of its own; nothing where none is asked for, or where there
+  // is no ambient light to take from.
+  std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view,
+                                                const AmbientOcclusionOptions& options) const;
   ShadowInputs shadowInputs(const FrameView& view, const Quality& quality) const;
   // `linkedNodes`: see deepshadow::MapInputs.
   deepshadow::Maps buildShadows(const FrameView& view, const Quality& quality, size_t linkedNodes = 0) const;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/layers_gpu.h"
@@ -20,7 +19,6 @@ namespace {
 constexpr int taken = 2;  // the stencil value of the sample that takes the next fragment
 constexpr int highestStencil = 255;
 constexpr size_t usualBandBytes = size_t{512} << 20;
-constexpr int maxDispatches = 10000;  // no sane band needs so many
 
 int passesFor(int fragments, int samples) {
   return (fragments + samples - 1) / samples;
@@ -30,10 +28,16 @@ gl::ShaderDefines samplesDefine(int samples) {
   return {{"ROUTED_SAMPLES", std::to_string(samples)}};
 }
 
+// As a texture has them: a single one makes no multisample texture, which some drivers do not read well.
+int textureSamples(int samples) {
+  return samples > 1 ? samples : 0;
+}
+
 gl::Texture stencilFor(gl::Device& device, glm::ivec2 size, int samples) {
-  return gl::Texture(
-      device, "routing stencil",
-      {.format = gl::Format::Depth32FStencil8, .size = {size.x, size.y, 1}, .samples = samples});
+  return gl::Texture(device, "routing stencil",
+                     {.format = gl::Format::Depth32FStencil8,
+                      .size = {size.x, size.y, 1},
+                      .samples = textureSamples(samples)});
 }
 
 // Sample i of every pixel begins with `first` + i.
@@ -180,8 +184,9 @@ class Router {
   Samples samplesFor(const Band& band) const {
     const glm::ivec3 size(band.tile.width, band.tile.height, passesFor(band.fragments, samples_));
     const auto image = [&](gl::Format format) {
-      return gl::Texture(frame_.device(), "routed fragments",
-                         {.format = format, .size = size, .samples = samples_, .array = true});
+      return gl::Texture(
+          frame_.device(), "routed fragments",
+          {.format = format, .size = size, .samples = textureSamples(samples_), .array = true});
     };
     Samples samples;
     for (size_t i = 0; i < std::size(samples.surface); ++i)
@@ -241,32 +246,25 @@ class Router {
     return last;
   }
 
-  void walkPast(const Band& band, const Samples& samples, const Walk& walk) {
+  void walkPast(const Band& band, const Samples& samples, Walk& walk) {
     const Profiler::Scope time(frame_.device().profiler(), "walk");
-    const gl::Program& program = frame_.device().program(
-        {"pipelines/routed_walk.comp"}, gl::joined(frame_.lightingDefines(), samplesDefine(samples_)));
-    gl::Buffer counters(frame_.device(), "walk counters", sizeof(shared::ResolveCounters));
-    gl::Buffer met(frame_.device(), "routed walk", band.tile.pixels() * sizeof(glm::uvec2));
+    const gl::Buffer met(frame_.device(), "routed walk", band.tile.pixels() * sizeof(glm::uvec2));
     shared::ResolveParams params = frame_.params();
     params.options.w = static_cast<int>(band.tile.pixels());
-    for (int i = 0;; ++i) {
-      base::check(i < maxDispatches, "the walk ends");
-      frame_.bind(params);
-      bandView_.bindUniform(UNIFORM_VIEW);
-      for (int j = 0; j < 2; ++j) samples.surface[j].bind(TEXTURE_SURFACE_0 + static_cast<unsigned>(j));
-      samples.surface[2].bind(TEXTURE_SURFACE_2);
-      samples.keys.bind(TEXTURE_ROUTED_KEYS);
-      counts_.bind(TEXTURE_ROUTED_COUNTS);
-      counters.clear();
-      counters.bindStorage(STORAGE_COUNTERS);
-      met.bindStorage(STORAGE_ROUTED_MET);
-      walk.rays.bindStorage(STORAGE_RAYS);
-      gl::dispatchLinear(program, band.tile.pixels());
-      gl::storageBarrier();
-      const auto counted = counters.readValue<shared::ResolveCounters>();
-      frame_.statistics.cutWalks += counted.boundHit;
-      if (counted.unfinished == 0) return;
-    }
+    frame_.dispatchWalk(
+        frame_.device().program({"pipelines/routed_walk.comp"},
+                                gl::joined(frame_.lightingDefines(), samplesDefine(samples_))),
+        params,
+        [&] {
+          bandView_.bindUniform(UNIFORM_VIEW);
+          samples.surface[0].bind(TEXTURE_SURFACE_0);
+          samples.surface[1].bind(TEXTURE_SURFACE_1);
+          samples.surface[2].bind(TEXTURE_SURFACE_2);
+          samples.keys.bind(TEXTURE_ROUTED_KEYS);
+          counts_.bind(TEXTURE_ROUTED_COUNTS);
+          met.bindStorage(STORAGE_ROUTED_MET);
+        },
+        walk);
   }
 
   LayeredFrame& frame_;

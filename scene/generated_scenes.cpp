@@ -202,16 +202,6 @@ Camera cameraFor(const dvec3& from, const dvec3& at, double yfov, double aspect)
 
 }  // namespace
 
-TriangleCounts triangleCounts(const Scene& scene) {
-  TriangleCounts counts;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    const bool translucent = scene.materials[static_cast<size_t>(mesh.material)].translucent();
-    (translucent ? counts.translucent : counts.opaque) += triangleCount(mesh);
-  }
-  return counts;
-}
-
 Scene withoutTranslucent(const Scene& scene) {
   Scene result = scene;
   std::erase_if(result.instances, [&](const Instance& instance) {

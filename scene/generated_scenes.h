@@ -20,7 +20,6 @@ struct TriangleCounts {
   size_t opaque = 0;
   size_t translucent = 0;
 };
-TriangleCounts triangleCounts(const Scene& scene);
 
 // Four stacks of 1, 2, 4 and 8 overlapping coloured panes side by side before a wall, shifted against each
 // other so that every number of layers from 0 to 8 is seen, and a column of smoke that stands among them; a

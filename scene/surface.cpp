@@ -64,8 +64,4 @@ Mesh tessellated(const SurfacePoint& point, size_t triangles, double aspect) {
   return mesh;
 }
 
-size_t triangleCount(const Mesh& mesh) {
-  return mesh.indices.size() / 3;
-}
-
 }  // namespace sfumato::scene

@@ -17,6 +17,4 @@ using SurfacePoint = std::function<glm::dvec3(double u, double v)>;
 // as high. Throws Bug for fewer triangles.
 Mesh tessellated(const SurfacePoint& point, size_t triangles, double aspect = 1);
 
-size_t triangleCount(const Mesh& mesh);
-
 }  // namespace sfumato::scene

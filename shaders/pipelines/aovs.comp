@@ -7,13 +7,10 @@
 #include "shaders/shared/aovs.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/math.glsl"
-#include "shaders/shared/resolve.h"
+#include "shaders/shared/resolve_block.glsl"
 #include "shaders/shared/view_block.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = UNIFORM_PASS) uniform Pass {
-  ResolveParams params;
-};
 layout(std430, binding = STORAGE_AOVS) writeonly buffer Aovs {
   AovPixel aovs[];
 };

@@ -3,6 +3,7 @@
 #define SAMPLES 1
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/layer_ambient.glsl"
 #include "shaders/scene/surface.glsl"
 #ifdef LIGHT
 #include "shaders/pipelines/surface_lighting.glsl"
@@ -38,7 +39,7 @@ void main() {
 #else
   pass = vec4(0.0);
 #endif
-  light = vec4(surface.emissive, 0.0);
+  light = vec4(glow(surface, pixel, at, pass.a > 0.5), 0.0);
   normal = vec4(0.5 + 0.5 * surface.normal, 0.0);
   depth = at;
 #endif

@@ -8,8 +8,13 @@
 
 #ifdef ROUTED
 #define LayerPlace ivec4  // x, y, layer, sample
+#if ROUTED_SAMPLES > 1
 #define layerSampler sampler2DMSArray
 #define layerUsampler usampler2DMSArray
+#else
+#define layerSampler sampler2DArray
+#define layerUsampler usampler2DArray
+#endif
 #define layerTexel(image, place) texelFetch(image, place.xyz, place.w)
 #else
 #define LayerPlace ivec2
@@ -93,14 +98,14 @@ vec3 layerPass(PackedSurface surface) {
   return isTranslucent(surface) ? surfacePass(surface) : vec3(0.0);
 }
 
-bool isTranslucentAt(ivec2 pixel) {
-  return isTranslucent(layerSurface(pixel));
+bool isTranslucentAt(LayerPlace place) {
+  return isTranslucent(layerSurface(place));
 }
 
-vec3 passAt(ivec2 pixel) {
-  return surfacePass(layerSurface(pixel));
+vec3 passAt(LayerPlace place) {
+  return surfacePass(layerSurface(place));
 }
 
-vec3 normalAt(ivec2 pixel) {
-  return unpackSurface(layerSurface(pixel)).normal;
+vec3 normalAt(LayerPlace place) {
+  return unpackSurface(layerSurface(place)).normal;
 }

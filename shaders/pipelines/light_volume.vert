@@ -1,12 +1,8 @@
 // What a light reaches, as a mesh; the whole image for a directional light.
 #include "shaders/lights/light.glsl"
 #include "shaders/lights/proxy_mesh.glsl"
-#include "shaders/shared/resolve.h"
+#include "shaders/shared/resolve_block.glsl"
 #include "shaders/shared/view_block.glsl"
-
-layout(std140, binding = UNIFORM_PASS) uniform Pass {
-  ResolveParams params;
-};
 
 void main() {
   uint number = uint(params.options.w);

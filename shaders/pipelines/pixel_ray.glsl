@@ -2,12 +2,9 @@
 #include "shaders/lights/light_lists.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/lists.h"
-#include "shaders/shared/resolve.h"
+#include "shaders/shared/resolve_block.glsl"
 #include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_PASS) uniform Pass {
-  ResolveParams params;
-};
 layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   ResolveCounters counters;
 };

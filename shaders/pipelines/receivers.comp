@@ -6,15 +6,12 @@
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/math.glsl"
-#include "shaders/shared/resolve.h"
+#include "shaders/shared/resolve_block.glsl"
 #include "shaders/shared/view_block.glsl"
 #ifdef SMOKE
 #include "shaders/volumes/grid.glsl"
 #endif
 
-layout(std140, binding = UNIFORM_PASS) uniform Pass {
-  ResolveParams params;
-};
 layout(std430, binding = STORAGE_RECEIVER_DEPTHS) writeonly buffer Receivers {
   vec2 receivers[];
 };

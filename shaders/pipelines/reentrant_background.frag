@@ -1,11 +1,8 @@
 // What a layer's surfaces let through, to be added to the light on them.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/resolve.h"
-#include "shaders/shared/view.h"
+#include "shaders/shared/view_block.glsl"
 
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std430, binding = STORAGE_RAYS) readonly buffer Rays {
   RayState rays[];
 };

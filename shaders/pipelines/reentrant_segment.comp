@@ -1,5 +1,5 @@
 // What a layer's surfaces let through of the finished light behind them and of the smoke between: the 'background'. TO_CAMERA:
-// what reaches the camera. params.options.x is 1 in the first dispatch; a ray that has done much work goes on in the next.
+// what reaches the camera. A ray that has done much work goes on in the next dispatch; params.options.x numbers the segments.
 #define SAMPLES 1
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer.glsl"
@@ -15,9 +15,9 @@ layout(binding = TEXTURE_FINISHED_DEPTH) uniform sampler2D finishedDepth;  // of
 // Which pixel's light is seen through a surface: its normal shifts it, but to nothing that is in front of the surface.
 ivec2 refracted(ivec2 pixel, float depth, PackedSurface surface) {
   vec3 normal = mat3(view.viewFromWorld) * unpackSurface(surface).normal;
-  ivec2 shifted = pixel + ivec2(round(normal.xy * (params.march.z * float(view.size.y))));
-  shifted = clamp(shifted, ivec2(0), view.size.xy - 1);
-  return texelFetch(finishedDepth, shifted, 0).r > depth ? shifted : pixel;
+  ivec2 shifted = pixel + ivec2(round(normal.xy * params.march.z));
+  bool inside = all(greaterThanEqual(shifted, ivec2(0))) && all(lessThan(shifted, view.size.xy));
+  return inside && texelFetch(finishedDepth, shifted, 0).r > depth ? shifted : pixel;
 }
 
 void main() {
@@ -35,8 +35,9 @@ void main() {
   vec3 pass = layerPass(surface);
   ivec2 seen = refracted(pixel, start, surface);
 #endif
-  Walker walker = Walker(vec3(0.0), vec3(1.0), start, 0u, false);
-  if (params.options.x == 0) walker = walkerOf(rays[number]);
+  uint segment = uint(params.options.x);
+  Walker walker = walkerOf(rays[number]);
+  if (walker.layers != segment) walker = Walker(vec3(0.0), vec3(1.0), start, segment, false);
   if (walker.ended) return;
   PixelRay ray = pixelRay(imagePlane(view, vec2(pixel) + 0.5), 1.0);
 #ifdef SMOKE

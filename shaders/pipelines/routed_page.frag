@@ -1,12 +1,13 @@
 // The numbers of the last fragments that are kept in samples: those of later pages come after them. params.options.x is the
 // layer that is full where there are any.
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/resolve.h"
+#include "shaders/shared/resolve_block.glsl"
 
-layout(std140, binding = UNIFORM_PASS) uniform Pass {
-  ResolveParams params;
-};
+#if ROUTED_SAMPLES > 1
 layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DMSArray keys;
+#else
+layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DArray keys;
+#endif
 layout(location = 0) out uint last;
 
 void main() {

@@ -17,7 +17,7 @@ layout(std430, binding = STORAGE_ROUTED_MET) buffer Met {
   uvec2 lastMet[];
 };
 layout(binding = TEXTURE_ROUTED_COUNTS) uniform sampler2D counts;
-layout(binding = TEXTURE_ROUTED_KEYS) uniform usampler2DMSArray keys;
+layout(binding = TEXTURE_ROUTED_KEYS) uniform layerUsampler keys;
 
 ivec4 placeOf(ivec2 pixel, uint fragment) {
   return ivec4(pixel, fragment / uint(ROUTED_SAMPLES), fragment % uint(ROUTED_SAMPLES));
@@ -58,7 +58,7 @@ void main() {
     if (marchTo(depth, ray, walker)) {
       if (!walker.ended) {
         PackedSurface surface = layerSurface(nearest);
-        walker.radiance += walker.throughput * shadeSurface(unpackSurface(surface), ray, depth);
+        walker.radiance += walker.throughput * shadeSurface(unpackSurface(surface), ray, depth, 1.0);
         walker.throughput *= layerPass(surface);
         walker.ended = maxComponent(walker.throughput) < params.march.y;
         last = next;

@@ -3,11 +3,9 @@
 #include "shaders/pipelines/occlusion.glsl"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/hash.glsl"
+#include "shaders/shared/view_block.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   OcclusionParams params;
 };

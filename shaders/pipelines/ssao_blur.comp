@@ -3,12 +3,10 @@
 // grazing angle is one surface. And places far apart share nothing, so that small images keep what is dark.
 #include "shaders/pipelines/occlusion.glsl"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/view_block.glsl"
 
 #define LINE 64
 layout(local_size_x = LINE) in;
-layout(std140, binding = UNIFORM_VIEW) uniform View {
-  ViewParams view;
-};
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   OcclusionParams params;
 };

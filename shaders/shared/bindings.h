@@ -48,7 +48,6 @@
 #define TEXTURE_TRANSMISSION 4
 #define TEXTURE_SPECULAR 5
 #define TEXTURE_SPECULAR_COLOUR 6
-#define TEXTURE_OCCLUSION 6  // of ambient light, where surfaces of a G-buffer are lit
 #define TEXTURE_OPAQUE_DEPTH 7
 #define TEXTURE_SURFACE_0 8
 #define TEXTURE_SURFACE_1 9
@@ -75,7 +74,8 @@
 #define TEXTURE_ROUTED_KEYS 14  // of the fragments in samples: depth, number
 #define TEXTURE_ROUTED_COUNTS 13  // of fragments of a pixel
 #define TEXTURE_ROUTED_PAGE 14  // while they are drawn
-#define TEXTURE_GRIDS 20  // and the units after it
+#define TEXTURE_OCCLUSION 20  // of ambient light, where surfaces are lit
+#define TEXTURE_GRIDS 21  // and the units after it
 
 // Image units
 #define IMAGE_RESULT 0  // what a pass of images writes

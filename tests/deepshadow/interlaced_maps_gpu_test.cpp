@@ -192,6 +192,10 @@ class InterlacedMapsGpu : public tests::GpuTest {
   InterlacedKind kind_{};
 };
 
+dvec3 randomDirection(base::Random& random) {
+  return glm::normalize(dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+}
+
 // Which way a light stands to the things about the origin; the point light is amidst them.
 std::vector<Light> lightsAround() {
   return {tests::spotLight({1.3, 6, 2.1}, {0, 1, 0}, dvec3(7), 0.3, 0.62),
@@ -567,8 +571,7 @@ TEST_F(InterlacedMapsGpu, NothingIsDarkAtTheBorderOfAPanesShadow) {
       tests::add(scene, tests::sphere(48, 96), tests::lambert({1, 1, 1}), glm::dmat4(glm::dmat3(0.7)));
       Probes probes;
       while (probes.size() < 1500) {
-        const dvec3 d =
-            glm::normalize(dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+        const dvec3 d = randomDirection(random);
         if (glm::dot(d, to) > 0.2 && d.y > 0.05) probes.push_back(onSurface(0.699 * d, d));
         const dvec3 p(random.uniform(-2, 1.4), 0, random.uniform(-2, 2));
         const dvec3 ray = type == LightType::Directional ? -to : glm::normalize(p - light.position);
@@ -625,6 +628,49 @@ TEST_F(InterlacedMapsGpu, BehindAThinWallItIsDarkBehindAPaneOrNot) {
   }
   EXPECT_GT(allDark, 500);
   EXPECT_GT(allFiltered, 500);
+}
+
+// A pane under the edge of a wall: what is lit beside the wall's shadow went through the pane, though lines
+// beside it show the wall.
+TEST_F(InterlacedMapsGpu, APaneFiltersUpToTheShadowOfAWallBeforeIt) {
+  const dvec3 passes(0.8, 0.4, 0.1);
+  const Light light = tests::directionalLight({0, -1, 0}, dvec3(1));
+  for (const bool acrossLines : {false, true}) {
+    const dvec3 u = acrossLines ? dvec3(3.013, 0, 0) : dvec3(6, 0, 0);
+    const dvec3 v = acrossLines ? dvec3(0, 0, 6) : dvec3(0, 0, 3.013);
+    build(sceneOf({{{-3, 3, -3}, u, v}, {{-3, 2, -3}, {6, 0, 0}, {0, 0, 6}, passes}}, light), 64);
+    Probes probes;
+    for (int i = 0; i < 400; ++i) {
+      const double across = 0.004 * (i - 200);
+      probes.push_back(inSmoke({acrossLines ? across : 0.3, 1, acrossLines ? 0.3 : across}));
+    }
+    for (const int side : {2, 4}) {
+      int border = 0;
+      for (const dvec3& passing : ask(probes, light, side)) {
+        const dvec3 whole = passes * (passing.x / passes.x);
+        EXPECT_LT(worst(passing, whole), 1 / 500.0) << acrossLines << ' ' << side;
+        border += passing.x > 0.05 && passing.x < 0.75 ? 1 : 0;
+      }
+      EXPECT_GT(border, 10);
+    }
+  }
+}
+
+// Around the point that asks a bowl is nearer to the light than the plane there.
+TEST_F(InterlacedMapsGpu, ABallOfGlassWithALampInItDoesNotFilterItsOwnLight) {
+  base::Random random(29);
+  const Light light = tests::pointLight({0.2, 0.1, -0.2}, dvec3(1));
+  scene::Scene scene;
+  tests::add(scene, tests::sphere(64, 128), tests::pane({0.6f, 0.3f, 0.2f}));
+  scene.lights = {light};
+  Probes probes;
+  for (int i = 0; i < 500; ++i) {
+    const dvec3 d = randomDirection(random);
+    probes.push_back(onSurface(d, -d));
+  }
+  build(scene, 128);
+  for (const int side : filterSides)
+    for (const dvec3& passing : ask(probes, light, side)) ASSERT_LT(worst(passing, dvec3(1)), 1e-5) << side;
 }
 
 // What is seen of a step when something moves across the edge of a shadow.

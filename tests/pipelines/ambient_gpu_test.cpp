@@ -1,5 +1,7 @@
 // Ambient light in the core pipeline: answers known beforehand, and the reference's.
 #include "pipelines/linked_lists_gpu.h"
+#include "pipelines/pipeline_gpu.h"
+#include "pipelines/pipeline_names.h"
 #include "pipelines/reference.h"
 #include "tests/gl/test_device.h"
 #include "tests/pipelines/ambient_scenes.h"
@@ -61,14 +63,49 @@ TEST_F(AmbientGpu, WithoutItTheReferenceIsNotMet) {
   EXPECT_GT(errors(dark, reference).failingFraction, 0.1);
 }
 
-TEST_F(AmbientGpu, AreTheSameInTilesAndWindows) {
-  const KnownScene known = tests::ambientAndLights()[2];
+TEST_F(AmbientGpu, AreTheSameInWindows) {
+  const KnownScene known = tests::ambientAndLights()[1];
   LinkedListsPipeline pipeline(device(), known.scene, known.media);
   const auto draw = [&](const FrameOptions& options) {
     return pipeline.render(known.scene.cameras[0], width, height, fine, options).radiance;
   };
   EXPECT_EQ(draw({.windowPixels = 900}).values, draw({}).values);
 }
+
+class AmbientInPipelines : public AmbientGpu, public testing::WithParamInterface<std::string> {
+ protected:
+  image::Image drawBy(const std::string& name, const KnownScene& known, const Quality& quality) {
+    return makePipeline(name, device(), known.scene, known.media)
+        ->render(known.scene.cameras[0], width, height, quality)
+        .radiance;
+  }
+};
+
+TEST_P(AmbientInPipelines, IsReflectedAsTheSurfaceIsColoured) {
+  for (const tests::AmbientScene& of : tests::ambientScenes()) {
+    SCOPED_TRACE(of.known.name);
+    const double tolerance = of.known.media.empty() ? 1e-5 : 1e-3;
+    const image::Image image = drawBy(GetParam(), of.known, fine);
+    for (size_t i = 0; i < image.values.size(); ++i)
+      ASSERT_NEAR(image.values[i], of.radiance[static_cast<int>(i % 3)], tolerance) << i;
+  }
+}
+
+TEST_P(AmbientInPipelines, IsKeptIn8Bits) {
+  if (GetParam() == "lund") return;  // has no such storage
+  const tests::AmbientScene coloured = tests::ambientScenes()[1];
+  Quality quality = fine;
+  quality.deferred.storage = Storage::Table;
+  KnownScene known = coloured.known;
+  known.scene.ambient = {0.5, 1, 0.25};
+  const image::Image image = drawBy(GetParam(), known, quality);
+  const glm::dvec3 expected(0.25, 0.25, 0.25);
+  for (size_t i = 0; i < image.values.size(); ++i)
+    ASSERT_NEAR(image.values[i], expected[static_cast<int>(i % 3)], 0.01) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipelines, AmbientInPipelines, testing::ValuesIn(pipelineNames()),
+                         [](const auto& info) { return tests::testName(info.param); });
 
 }  // namespace
 }  // namespace sfumato::pipelines

@@ -241,7 +241,7 @@ TEST_F(AmbientOcclusionGpu, IsNotBlurredAcrossDepths) {
     const image::Image image = draw(scene, {size, 0.4}, 4);
     for (int y = 0; y < height; ++y) {
       for (int x = width / 2; x < width; ++x) ASSERT_NEAR(*image.pixel(x, y), 1, 1e-5) << nameOf(size);
-      ASSERT_LT(*image.pixel(width / 2 - 15, y), 0.85f);
+      ASSERT_LT(*image.pixel(width / 2 - 15, y), 0.9f);  // the groove itself
     }
   }
 }

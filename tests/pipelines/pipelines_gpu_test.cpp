@@ -68,6 +68,17 @@ TEST_P(EveryPipeline, DrawsOpaqueSurfacesAsTheListsDo) {
         << known.name;
 }
 
+TEST_P(EveryPipeline, HasTheSameAmbientLight) {
+  KnownScene known = tests::shinySpheres();
+  known.scene.ambient = {0.5, 1, 0.25};
+  Quality quality = coarse();
+  quality.ambientOcclusion = {OcclusionSize::Half, 0.5};
+  const image::Image lists = draw("lund", known, quality);
+  EXPECT_LT(image::compare(draw(GetParam(), known, quality), lists).relativeRmse, rounding);
+  quality.ambientOcclusion = {};
+  EXPECT_GT(image::compare(draw(GetParam(), known, quality), lists).relativeRmse, 100 * rounding);
+}
+
 TEST_P(EveryPipeline, DrawsImagesOfAnySize) {
   const KnownScene known = tests::smokeAndGlass();
   Quality quality = coarse();
@@ -79,6 +90,14 @@ TEST_P(EveryPipeline, DrawsImagesOfAnySize) {
     EXPECT_EQ(image::findNotFinite(image).count, 0u);
     EXPECT_GT(*std::max_element(image.values.begin(), image.values.end()), 0.f);
   }
+}
+
+TEST_P(EveryPipeline, DrawsTheSameWithDepthsFirst) {
+  const KnownScene known = tests::smokeAndGlass();
+  Quality quality = coarse();
+  const image::Image image = draw(GetParam(), known, quality);
+  quality.depthsFirst = true;
+  EXPECT_EQ(draw(GetParam(), known, quality).values, image.values);
 }
 
 TEST_P(EveryPipeline, IsTheSameBitsEveryTime) {

@@ -1,0 +1,6 @@
+// Depths alone, of what the surfaces do not cut out.
+#include "shaders/scene/material.glsl"
+
+void main() {
+  if (baseColour().a == 0.0) discard;
+}
