@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/pipeline_variants.h"
+#include "base/error.h"
 #include "image/image.h"
 #include "image/metrics.h"
 #include "image/report.h"
@@ -32,6 +33,7 @@ struct LayerClass {
 struct VariantRun {
   Variant variant;
   std::string refused;  // why it was not drawn, or empty; then nothing of what follows is there
+  base::ExitCode refusal = base::ExitCode::Done;  // of the same
   image::Image radiance;
   image::Difference difference;      // from the exact image
   std::optional<size_t> perceptual;  // pixels in which a viewer sees one; none in a build without image files

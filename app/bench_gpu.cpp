@@ -137,7 +137,7 @@ VariantRun runOf(gl::Device& device, const BenchOptions& options, const Shot& sh
     draw(device, options, shot, run);
   } catch (const base::Error& error) {
     if (error.exitCode != ExitCode::Memory && error.exitCode != ExitCode::Usage) throw;
-    return {.variant = variant, .refused = error.what()};
+    return {.variant = variant, .refused = error.what(), .refusal = error.exitCode};
   }
   run.difference = image::compare(run.radiance, exact.radiance);
   if (image::readsAndWritesImages()) run.perceptual = image::perceptualFailures(run.radiance, exact.radiance);
@@ -184,9 +184,9 @@ int bench(const BenchOptions& options) {
     progress.advance();
   }
   tell(options, comparison);
-  const bool refused =
-      std::ranges::any_of(comparison.runs, [](const auto& run) { return !run.refused.empty(); });
-  return static_cast<int>(refused ? ExitCode::Memory : ExitCode::Done);
+  const auto refused =
+      std::ranges::find_if(comparison.runs, [](const auto& run) { return !run.refused.empty(); });
+  return static_cast<int>(refused == comparison.runs.end() ? ExitCode::Done : refused->refusal);
 }
 
 }  // namespace sfumato::app

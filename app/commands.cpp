@@ -195,9 +195,8 @@ void addQuality(CLI::App& command, RenderOptions& options) {
 
 void addPipeline(CLI::App& command, RenderOptions& options) {
   command
-      .add_option(
-          "--pipeline", options.pipeline,
-          fmt::format("Draw so: {}; else {}", fmt::join(pipelines::pipelineNames(), ", "), options.pipeline))
+      .add_option("--pipeline", options.pipeline,
+                  fmt::format("Of {}", fmt::join(pipelines::pipelineNames(), ",")))
       ->type_name("NAME")
       ->check(oneOf(pipelines::pipelineNames()))
       ->group("Pipeline");
@@ -215,23 +214,23 @@ void addDeferred(CLI::App& command, RenderOptions& options) {
         ->type_name("NAME")
         ->check(oneOf(names));
   };
-  choose("--shadows", options.shadows, "Shadows of pipelines other than lund", pipelines::shadowKinds().names,
-         "their own");
+  choose("--shadows", options.shadows, "Of pipelines other than lund", pipelines::shadowKinds().names,
+         "theirs");
   choose("--interlace", options.interlace, "Pixels of translucent surfaces", pipelines::interlaces().names,
          options.interlace);
   choose("--storage", options.storage, "Targets: of floats, or of 8 and 10 bits", pipelines::storages().names,
          options.storage);
-  choose("--passes", options.passes, "Of reentrant: for all translucent surfaces, or an object",
+  choose("--passes", options.passes, "Of reentrant, for all surfaces or each object",
          pipelines::passesNames().names, options.passes);
   command
       .add_flag("--depth-prepass", options.depthsFirst,
-                "Draw the depths of opaque surfaces first, so that none is shaded that is hidden")
+                "Draw depths of opaque surfaces first, so that none is shaded in vain")
       ->group("Pipeline");
   add("--layers", options.layers, "Layers that are peeled at most: 1 to 10000, else all")
       ->type_name("N")
       ->check(wholeBetween(1, 10000));
   add("--refraction", options.refraction,
-      "Bend what is seen through surfaces: 0 to 1, of the image's height, else 0")
+      "Bend what surfaces let through: 0 to 1 of the image's height, else 0")
       ->type_name("PART")
       ->check(between(0.0, 1.0));
 }
@@ -486,7 +485,7 @@ CLI::Option* addRepeat(CLI::App& command, int& repeat) {
 
 void addComparison(CLI::App& command, BenchOptions& options) {
   addChoices(command, "--pipelines", options.pipelines,
-             fmt::format("Of {}; else all", fmt::join(pipelines::pipelineNames(), ",")).c_str())
+             fmt::format("Of {}", fmt::join(pipelines::pipelineNames(), ",")).c_str())
       ->type_name("NAME,...")
       ->check(oneOf(pipelines::pipelineNames()))
       ->group("Comparison");

@@ -59,11 +59,15 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
   nlohmann::json result;
   result["device"] = device.names().renderer;
   result["startup"] = {{"seconds", times.startupSeconds}, {"passes", toJson(times.startupPasses)}};
-  result["frame"] = {
-      {"seconds", times.frameSeconds},          {"passes", toJson(times.framePasses)},
-      {"triangles", statistics.triangles},      {"tiles", statistics.tiles},
-      {"split_pixels", statistics.splitPixels}, {"resolve_dispatches", statistics.resolveDispatches},
-      {"cut_walks", statistics.cutWalks},       {"lookups", toJson(statistics.lookups)}};
+  result["frame"] = {{"seconds", times.frameSeconds},
+                     {"passes", toJson(times.framePasses)},
+                     {"triangles", statistics.triangles},
+                     {"geometry_passes", statistics.geometryPasses},
+                     {"tiles", statistics.tiles},
+                     {"split_pixels", statistics.splitPixels},
+                     {"resolve_dispatches", statistics.resolveDispatches},
+                     {"cut_walks", statistics.cutWalks},
+                     {"lookups", toJson(statistics.lookups)}};
   result["lists"] = {{"surfaces", toJson(statistics.surfaces, fromBounds.surfaces)},
                      {"lights", toJson(statistics.lights, fromBounds.lights)}};
   result["lists"]["shadows"] = nlohmann::json::array();

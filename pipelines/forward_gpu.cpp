@@ -49,6 +49,7 @@ void drawSurfaces(LayeredFrame& frame, gl::DrawState state, const gl::ShaderDefi
     state.program = &frame.device().program({"scene/surface.vert", "pipelines/forward.frag"}, all);
     gl::setDrawState(state);
     geometry.draw(surfaces, true);
+    ++frame.statistics.geometryPasses;
   }
 }
 
@@ -64,7 +65,7 @@ void drawAmbient(LayeredFrame& frame, const ForwardImage& image) {
   drawSurfaces(
       frame,
       {.target = &target, .viewport = {0, 0, frame.view().width, frame.view().height}, .depthTest = true},
-      {});
+      frame.glowDefines());
 }
 
 void addLight(LayeredFrame& frame, size_t number, const ForwardImage& image) {

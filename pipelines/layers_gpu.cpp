@@ -201,6 +201,7 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
   framebuffer.clearStencil(0);
 
   const auto drawSurfaces = [&](Layer surfaces, gl::ShaderDefines defines) {
+    statistics.geometryPasses += surfaces == Layer::Opaque && quality_.depthsFirst ? 2 : 1;
     defines = gl::joined(gl::joined(scene_.geometry().defines(), storageDefines()), defines);
     if (surfaces == Layer::Translucent) defines.emplace_back("TRANSLUCENT", "1");
     if (what.before) {

@@ -137,7 +137,4 @@ class LayeredFrame {
   std::optional<AmbientOcclusion> occlusion_;
 };
 
-// An image of a texture of 32-bit floats; the rows of images count from the top.
-image::Image readImage(const gl::Texture& texture);
-
 }  // namespace sfumato::pipelines

@@ -146,6 +146,7 @@ class Router {
          .viewport = {0, 0, view.width, view.height},
          .blend = gl::Blend::Add});
     frame_.scene().geometry().draw(Layer::Translucent, true);
+    ++frame_.statistics.geometryPasses;
     std::vector<float> counted(frame_.pixels());
     counts_.read(std::as_writable_bytes(std::span(counted)));
     for (auto row = counted.begin(); row != counted.end(); row += view.width)
@@ -227,6 +228,7 @@ class Router {
                              target, {-band.tile.x, -band.tile.y, frame_.view().width, frame_.view().height},
                              multisample_));
     geometry.draw(Layer::Translucent, true);
+    ++frame_.statistics.geometryPasses;
   }
 
   // The number of each pixel's last fragment in a pass; the highest one where it has none.

@@ -76,6 +76,25 @@ TEST_F(Bench, HoldsEveryPipelineAgainstTheReference) {
   }
 }
 
+// Those that keep all layers, under the same shadows, have the same error.
+TEST_F(Bench, FindsTheExactOnesAlike) {
+  const Json result =
+      json("pipelines", {"--res", "48x27", "--pipelines", "lund,peeling,reentrant,stencil-routed"});
+  const double lund = named(result["pipelines"], "name", "lund")["rmse"];
+  for (const char* name : {"peeling", "reentrant", "stencil-routed"})
+    EXPECT_NEAR(named(result["pipelines"], "name", name)["rmse"].get<double>(), lund, 0.01 * lund) << name;
+}
+
+TEST_F(Bench, TellsWhatAPipelineRefuses) {
+  const Outcome outcome =
+      run("pipelines", {"--res", "32x18", "--pipelines", "lund,forward", "--interlace", "full", "--json"});
+  EXPECT_EQ(outcome.exitCode, 2) << outcome.err;
+  const Json result = Json::parse(outcome.out);
+  EXPECT_GT(named(result["pipelines"], "name", "lund")["ms"], 0);
+  EXPECT_NE(named(result["pipelines"], "name", "forward")["refused"].get<std::string>().find("full"),
+            std::string::npos);
+}
+
 // Of pixels that see no translucent surface all are right; behind four, one layer is not enough.
 TEST_F(Bench, SeesThatOneLayerIsWrongWhereThereAreMore) {
   const Json result = json("pipelines", {"--res", "64x36", "--pipelines", "lund,peeling"});
