@@ -76,6 +76,7 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
     nlohmann::json light = toJson(map.lists, fromBounds.shadows[i]);
     light["faces"] = map.faces;
     light["texels"] = map.texels;
+    light["smoke_texels"] = map.smokeTexels;
     light["resolution"] = map.resolution;
     light["knot_bytes"] = map.knotBytes;
     result["lists"]["shadows"].push_back(light);

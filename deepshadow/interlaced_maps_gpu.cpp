@@ -115,7 +115,7 @@ void InterlacedMaps::draw(gl::Device& device, const InterlacedInputs& inputs) co
   gl::Buffer passBlock(device, "shadow pass", sizeof(shared::InterlacedPassParams));
   for (size_t i = 0; i < faces_.size(); ++i) {
     const Face& face = faces_[i];
-    viewBlock.writeValue(faceView(face.projection));
+    viewBlock.writeValue(faceView(face.projection, face.projection.side));
     viewBlock.bindUniform(UNIFORM_VIEW);
     passBlock.writeValue(shared::InterlacedPassParams{glm::vec4(lightColours_[i], 0)});
     passBlock.bindUniform(UNIFORM_PASS);

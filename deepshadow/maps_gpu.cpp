@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gl/commands.h"
 #include "gl/program.h"
+#include "lights/light_reach.h"
 #include "scene/light_faces.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
@@ -19,6 +20,7 @@ namespace {
 // Parts of a buffer that are bound alone start at multiples of 256 bytes.
 constexpr size_t unitBytes = sizeof(shared::ShadowKnot);  // of the pool of knots
 constexpr size_t unitAlignment = 256 / unitBytes;
+constexpr size_t knotsInUnit = 2;  // at most
 constexpr size_t texelAlignment = 64;
 constexpr auto texelsLabel = "deep shadow texels";
 constexpr auto poolLabel = "deep shadow knots";
@@ -27,8 +29,17 @@ size_t alignedUp(size_t count, size_t alignment) {
   return (count + alignment - 1) / alignment * alignment;
 }
 
+size_t squared(int side) {
+  return static_cast<size_t>(side) * static_cast<size_t>(side);
+}
+
+// Those of surfaces.
 size_t texelsOf(const FaceProjection& face) {
-  return static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
+  return squared(face.side);
+}
+
+size_t allTexelsOf(const FaceProjection& face) {
+  return texelsOf(face) + squared(face.smokeSide);
 }
 
 // Rows that hold some cells of a face: what a scissor lets through.
@@ -52,7 +63,10 @@ class Builder {
         knots_(knots),
         mostUnits_(mostUnits),
         opaque_(device.program({"scene/surface.vert", "deepshadow/opaque.frag"}, inputs.casters.defines)),
-        writer_(device.program({"deepshadow/knots.comp"}, writerDefines(inputs))),
+        surfaceWriter_(device.program({"deepshadow/surface_knots.comp"}, surfaceDefines(inputs.casters))),
+        smokeWriter_(inputs.volumes.empty()
+                         ? nullptr
+                         : &device.program({"deepshadow/smoke_knots.comp"}, inputs.volumes.defines())),
         viewBlock_(device, "shadow view", sizeof(shared::ViewParams)),
         passBlock_(device, "shadow pass", sizeof(shared::ShadowPassParams)),
         counters_(device, "shadow counters", sizeof(shared::ShadowCounters)) {}
@@ -67,17 +81,31 @@ class Builder {
       map.lists += drawFace(face, [&](const lists::Window& window) {
         fits = fits && writeKnots({face, firstTexel, window}, map);
       });
-      firstTexel += texelsOf(face);
+      forSmoke(face, [&](const lists::Window& window) {
+        const size_t before = map.knotBytes;
+        fits = fits && writeKnots({face, firstTexel + texelsOf(face), window, true}, map);
+        map.smokeKnots += (map.knotBytes - before) / unitBytes * knotsInUnit;
+      });
+      firstTexel += allTexelsOf(face);
     }
     map.units = firstUnit_ - map.firstUnit;
     return fits;
   }
 
+  struct Units {
+    size_t surfaces = 0;
+    size_t smoke = 0;
+  };
+
   // Units that the knots of a face take. Its texels are those of `texels` from the first on, and useless.
-  size_t count(const FaceProjection& face) {
-    size_t units = 0;
+  Units count(const FaceProjection& face) {
+    const size_t room = knots_.bytes() / unitBytes;
+    Units units;
     drawFace(face, [&](const lists::Window& window) {
-      units += write({face, 0, window}, SHADOW_ALL, knots_.bytes() / unitBytes).units;
+      units.surfaces += write({face, 0, window}, SHADOW_ALL, room).units;
+    });
+    forSmoke(face, [&](const lists::Window& window) {
+      units.smoke += write({face, 0, window, true}, SHADOW_ALL, room).units;
     });
     return units;
   }
@@ -128,19 +156,19 @@ class Builder {
   }
 
  private:
-  // Cells of a face whose lists are built.
+  // Texels of a face whose knots are written.
   struct FaceWindow {
     const FaceProjection& face;
-    size_t firstTexelOfFace;
+    size_t firstTexel;  // of cell 0
     lists::Window cells;
+    bool ofSmoke = false;
   };
 
-  static gl::ShaderDefines writerDefines(const MapInputs& inputs) {
+  static gl::ShaderDefines surfaceDefines(const Casters& casters) {
     gl::ShaderDefines defines;
-    if (!inputs.volumes.empty()) defines = inputs.volumes.defines();
-    if (inputs.casters.listed) defines.emplace_back("SURFACES", "1");
-    if (inputs.casters.once) defines.emplace_back("SHADOW_ONCE_OBJECTS", "1");
-    if (inputs.casters.notSelf) defines.emplace_back("SHADOW_NOT_SELF_OBJECTS", "1");
+    if (casters.listed) defines.emplace_back("SURFACES", "1");
+    if (casters.once) defines.emplace_back("SHADOW_ONCE_OBJECTS", "1");
+    if (casters.notSelf) defines.emplace_back("SHADOW_NOT_SELF_OBJECTS", "1");
     return defines;
   }
 
@@ -153,13 +181,24 @@ class Builder {
       return lists_->buildWindows(
           device_, [&](const lists::Pass& pass) { store(face, pass); }, consume, windowTexels);
     }
-    for (size_t first = 0; first < texelsOf(face); first += windowTexels)
-      consume({first, std::min(windowTexels, texelsOf(face) - first)});
+    forWindows(texelsOf(face), consume);
     return {};
   }
 
-  void useFace(const FaceProjection& face) {
-    shared::ViewParams view = faceView(face);
+  static void forWindows(size_t texels, const std::function<void(const lists::Window&)>& consume) {
+    for (size_t first = 0; first < texels; first += windowTexels)
+      consume({first, std::min(windowTexels, texels - first)});
+  }
+
+  // The texels of smoke of the face whose opaque depth was drawn last.
+  static void forSmoke(const FaceProjection& face, const std::function<void(const lists::Window&)>& consume) {
+    forWindows(squared(face.smokeSide), consume);
+  }
+
+  void useFace(const FaceProjection& face) { useFace(face, face.side); }
+
+  void useFace(const FaceProjection& face, int side) {
+    shared::ViewParams view = faceView(face, side);
     view.size.z = static_cast<int>(firstCell_);
     viewBlock_.writeValue(view);
     viewBlock_.bindUniform(UNIFORM_VIEW);
@@ -246,17 +285,19 @@ class Builder {
 
   // Writes the knots of a window's texels, `which` of them (SHADOW_*), into `room` units from firstUnit_ on.
   shared::ShadowCounters write(const FaceWindow& window, int which, size_t room) {
-    const gl::Profiler::Scope time(device_.profiler(), "knots");
+    const gl::Profiler::Scope time(device_.profiler(), window.ofSmoke ? "smoke" : "knots");
     counters_.clear();
-    useFace(window.face);
+    useFace(window.face, window.ofSmoke ? window.face.smokeSide : window.face.side);
     useWindow(window, which);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
-    if (inputs_.casters.listed) lists_->bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
-    inputs_.volumes.bind();
+    if (window.ofSmoke)
+      inputs_.volumes.bind();
+    else if (inputs_.casters.listed)
+      lists_->bind(TEXTURE_LIST_RUNS, TEXTURE_LIST_KEYS, TEXTURE_LIST_PAYLOADS);
     knots_.bindStorageRange(STORAGE_SHADOW_KNOTS, firstUnit_ * unitBytes, room * unitBytes);
     counters_.bindStorage(STORAGE_COUNTERS);
     for (;;) {
-      gl::dispatchLinear(writer_, window.cells.cells);
+      gl::dispatchLinear(window.ofSmoke ? *smokeWriter_ : surfaceWriter_, window.cells.cells);
       gl::storageBarrier();
       auto counted = counters_.readValue<shared::ShadowCounters>();
       if (counted.unfinished == 0) return counted;
@@ -289,7 +330,7 @@ class Builder {
 
   // The window's texels, and which of them are written.
   void useWindow(const FaceWindow& window, int which) {
-    const size_t firstTexel = window.firstTexelOfFace + window.cells.firstCell;
+    const size_t firstTexel = window.firstTexel + window.cells.firstCell;
     const size_t bound = firstTexel / texelAlignment * texelAlignment;
     shared::ShadowPassParams params{};
     params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(error_), 0.f, 0.f};
@@ -309,7 +350,8 @@ class Builder {
   gl::Buffer& knots_;
   const size_t mostUnits_;
   const gl::Program& opaque_;
-  const gl::Program& writer_;
+  const gl::Program& surfaceWriter_;
+  const gl::Program* smokeWriter_;  // where there are media
   gl::Buffer viewBlock_;
   gl::Buffer passBlock_;
   gl::Buffer counters_;
@@ -321,17 +363,24 @@ class Builder {
   size_t firstCell_ = 0;  // of the face, among the cells of linked lists
 };
 
-// What a texel's knots usually take, or somewhat more: where the maps fit with that, nobody counts. Smooth
-// smoke has knots as 1 / sqrt(error).
-size_t usualUnits(const MapInputs& inputs, double error) {
-  const double ofSmoke = inputs.volumes.empty() ? 0 : (error > 0 ? 0.75 / std::sqrt(error) : 256);
-  return 2 + static_cast<size_t>(ofSmoke) + (inputs.casters.listed ? 4 : 0);
+// What the knots of a texel usually take, or somewhat more: where the maps fit with that, nobody counts.
+size_t usualUnits(const MapInputs& inputs) {
+  return 2 + (inputs.casters.listed ? 4 : 0);
+}
+
+// The same of a texel of smoke. Smooth smoke has knots as 1 / sqrt(error).
+size_t usualSmokeUnits(double error) {
+  return 2 + static_cast<size_t>(error > 0 ? 0.75 / std::sqrt(error) : 256);
 }
 
 // Units of the knots of all `faces`: those of faces with an eighth of the side, times as many as there are.
 size_t countUnits(gl::Device& device, const MapInputs& inputs, double error,
                   std::span<const std::vector<FaceProjection>> facesOfLights) {
   constexpr int reduction = 8;
+  constexpr int leastSide = 16;
+  const auto ratio = [](int all, int reduced) {
+    return reduced > 0 ? static_cast<double>(squared(all)) / static_cast<double>(squared(reduced)) : 0;
+  };
   size_t mostTexels = 0;
   for (const std::vector<FaceProjection>& faces : facesOfLights)
     for (const FaceProjection& face : faces) mostTexels = std::max(mostTexels, texelsOf(face));
@@ -343,11 +392,19 @@ size_t countUnits(gl::Device& device, const MapInputs& inputs, double error,
     for (const FaceProjection& face : faces) {
       FaceProjection reduced = face;
       reduced.side = std::min(face.side, faceSide(face.side / reduction));
-      units += static_cast<double>(builder.count(reduced)) * static_cast<double>(texelsOf(face)) /
-               static_cast<double>(texelsOf(reduced));
+      reduced.smokeSide = std::min(face.smokeSide, std::max(face.smokeSide / reduction, leastSide));
+      const Builder::Units counted = builder.count(reduced);
+      units += static_cast<double>(counted.surfaces) * ratio(face.side, reduced.side) +
+               static_cast<double>(counted.smoke) * ratio(face.smokeSide, reduced.smokeSide);
     }
   }
   return static_cast<size_t>(units);
+}
+
+size_t smokeTexelsOf(const std::vector<LightMap>& maps) {
+  size_t sum = 0;
+  for (const LightMap& map : maps) sum += map.smokeTexels;
+  return sum;
 }
 
 }  // namespace
@@ -366,8 +423,11 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
   }
   for (bool counting = false;;) {
     const size_t texels = arrange(inputs);
+    const size_t smokeTexels = smokeTexelsOf(lightMaps_);
     double excess = excessOf(texels, 0);
-    counting = counting || excessOf(texels, texels * usualUnits(inputs, plan_.error)) > 1;
+    const size_t usual =
+        (texels - smokeTexels) * usualUnits(inputs) + smokeTexels * usualSmokeUnits(plan_.error);
+    counting = counting || excessOf(texels, usual) > 1;
     size_t units = 0;
     if (excess <= 1 && counting) {
       units = countUnits(device, inputs, plan_.error, projections_);
@@ -411,11 +471,31 @@ size_t Maps::arrange(const MapInputs& inputs) {
     map.firstFace = faces;
     map.faces = static_cast<int>(projections_.back().size());
     map.firstTexel = texels;
-    for (const FaceProjection& face : projections_.back()) map.texels += texelsOf(face);
+    const int smokeSide = smokeSideOf(inputs, i);
+    for (FaceProjection& face : projections_.back()) {
+      face.smokeSide = smokeSide;
+      map.texels += texelsOf(face);
+      map.smokeTexels += squared(smokeSide);
+    }
     faces += map.faces;
-    texels += map.texels;
+    texels += map.texels + map.smokeTexels;
   }
   return texels;
+}
+
+// The same for all faces of a light, so that lookups find one from the other. Where the plan is coarser than
+// what was asked for, smoke is as much coarser.
+int Maps::smokeSideOf(const MapInputs& inputs, size_t light) const {
+  if (inputs.linkedSmokeNodes > 0) return 0;
+  const double lowered =
+      static_cast<double>(plan_.resolutions[light]) / static_cast<double>(inputs.plan.resolutions[light]);
+  const double reach = lights::reach(inputs.lights[light]);
+  int side = 0;
+  for (const FaceProjection& face : projections_[light])
+    for (const volumes::MediumExtent& medium : inputs.volumes.extents())
+      side = std::max(
+          side, smokeSide(face, medium.worldFromUnit, inputs.stepVoxels * medium.voxel / lowered, reach));
+  return side;
 }
 
 // `units`: what the pool takes by count, 0 where nobody counted. False when it takes more than the budget.
@@ -423,7 +503,8 @@ bool Maps::tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, 
   const size_t texelBytes = texels * sizeof(shared::ShadowTexel);
   const size_t mostUnits = std::min((budgetBytes_ - texelBytes) / unitBytes,
                                     static_cast<size_t>(device.limits().textureBufferTexels));
-  const size_t guess = inputs.volumes.empty() ? texels / 4 : texels * 3 / 4;  // the pool grows
+  const size_t smokeTexels = smokeTexelsOf(lightMaps_);
+  const size_t guess = (texels - smokeTexels) / 4 + smokeTexels * 3 / 4;  // the pool grows
   const size_t firstUnits = units != 0 ? units + units / 10 + (1 << 12) : guess;
   texels_ = gl::Buffer();
   knots_ = gl::Buffer();
@@ -444,7 +525,7 @@ void Maps::uploadFaces(gl::Device& device) {
     size_t firstTexel = lightMaps_[i].firstTexel;
     for (const FaceProjection& face : projections_[i]) {
       faces.push_back(faceData(face, firstTexel));
-      firstTexel += texelsOf(face);
+      firstTexel += allTexelsOf(face);
     }
   }
   faces_ = gl::Buffer(device, "shadow faces", std::span<const shared::ShadowFace>(faces));
@@ -461,31 +542,32 @@ void Maps::buildLinked(gl::Device& device, const MapInputs& inputs, size_t texel
 
 size_t Maps::bytes() const {
   size_t sum = 0;
-  for (const LightMap& map : lightMaps_) sum += map.texels * sizeof(shared::ShadowTexel) + map.knotBytes;
+  for (const LightMap& map : lightMaps_)
+    sum += (map.texels + map.smokeTexels) * sizeof(shared::ShadowTexel) + map.knotBytes;
   return sum;
+}
+
+size_t Maps::knotsAtMost(size_t light) const {
+  const LightMap& map = lightMaps_[light];
+  size_t texelsAround = 0;  // of surfaces, that a texel of smoke is looked up from
+  for (const FaceProjection& face : projections_[light])
+    if (face.smokeSide > 0) texelsAround = squared(2 * (face.side / face.smokeSide + 1));
+  return knotsInUnit * map.units + texelsAround * map.smokeKnots;
 }
 
 ReadMap Maps::read(size_t light) const {
   const LightMap& map = lightMaps_[light];
-  std::vector<shared::ShadowTexel> texels(map.texels);
+  std::vector<shared::ShadowTexel> texels(map.texels + map.smokeTexels);
   std::vector<shared::ShadowKnot> units(map.units);
   texels_.read(std::as_writable_bytes(std::span(texels)), map.firstTexel * sizeof(shared::ShadowTexel));
   knots_.read(std::as_writable_bytes(std::span(units)), map.firstUnit * unitBytes);
   ReadMap result;
-  for (const shared::ShadowTexel& texel : texels) {
-    const size_t count = texel.count & SHADOW_KNOTS;
-    const size_t first = texel.first - map.firstUnit;
-    result.texels.push_back({result.knots.size(), count, texel.opaqueDepth});
-    for (size_t i = 0; i < count; ++i) {
-      if ((texel.count & SHADOW_GREY) == 0) {
-        result.knots.push_back(units[first + i]);
-      } else {
-        const shared::ShadowKnot& pair = units[first + i / 2];
-        const float depth = i % 2 == 0 ? pair.depth : pair.tauG;
-        const float tau = i % 2 == 0 ? pair.tauR : pair.tauB;
-        result.knots.push_back({depth, tau, tau, tau});
-      }
-    }
+  size_t first = 0;
+  for (const FaceProjection& face : projections_[light]) {
+    const auto own = std::span(texels).subspan(first, texelsOf(face));
+    const auto smoke = std::span(texels).subspan(first + texelsOf(face), squared(face.smokeSide));
+    appendJoined(face, decoded(own, units, map.firstUnit), decoded(smoke, units, map.firstUnit), result);
+    first += allTexelsOf(face);
   }
   return result;
 }

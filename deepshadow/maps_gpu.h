@@ -1,7 +1,9 @@
 // Deep shadow maps: for every texel of a light the transmittance as a function of depth, through coloured
 // surfaces and smoke (Lindbeck 2015, section 2.2; Lokovic and Veach 2000). Per light: opaque depth first, so
-// that nothing behind it is ever stored; then translucent surfaces into sorted lists; then a march through
-// the smoke that joins both into knots with the optical depth summed up.
+// that nothing behind it is ever stored; then translucent surfaces into sorted lists, and from these into
+// knots with the optical depth summed up; then, along rays of its own, a march through the smoke. Smoke
+// varies no faster than from voxel to voxel: its texels are as wide as a step of the march, where that is
+// more than a texel of the surfaces, and lookups interpolate between them.
 #pragma once
 
 #include <functional>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "deepshadow/map_plan.h"
+#include "deepshadow/read_map.h"
 #include "deepshadow/shadow_faces.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
@@ -41,7 +44,7 @@ struct MapInputs {
   const std::vector<glm::dvec3>& castingPoints;  // its `casters`
   MapPlan plan;                                  // what is asked for; a face of a cube has half a side
   MapBudget budget{};
-  double stepVoxels = 1.5;  // of the march through smoke
+  double stepVoxels = 1.5;  // of the march through smoke, and the width of its texels
   lists::ListOptions lists{};
   // For comparisons: lists stay linked, with so many nodes of smoke for each texel (deepshadow/walk.glsl); 0:
   // runs of knots. Error bound, budgets and the flags of objects do not hold then.
@@ -54,30 +57,20 @@ struct LightMap {
   int faces = 0;
   int resolution = 0;  // texels a side; a face of a cube has half
   size_t firstTexel = 0;
-  size_t texels = 0;
+  size_t texels = 0;       // of surfaces
+  size_t smokeTexels = 0;  // of each face behind its others
+  size_t smokeKnots = 0;   // at most
   size_t knotBytes = 0;
   size_t firstUnit = 0;  // of the pool, whose units are 16 bytes; some are not used
   size_t units = 0;
   lists::ListStatistics lists;
 };
 
-// A light's map on the CPU: transmittance of a texel is 0 behind its opaque depth; before it, exp(-tau), with
-// tau linear between knots (0 before the first, the last one's behind it).
-struct ReadMap {
-  struct Texel {
-    size_t firstKnot;
-    size_t knots;
-    float opaqueDepth;  // NOTHING_OPAQUE of shaders/shared/deepshadow.h: there is nothing
-  };
-  std::vector<Texel> texels;  // face after face, rows from the bottom
-  std::vector<shared::ShadowKnot> knots;
-};
-
 class Maps {
  public:
   // Builds the maps that the plan asks for, or, where they are more than the budget, of a coarser plan that
   // fits (map_plan.h): what they take is counted beforehand, at an eighth of the resolution. Costs 12 bytes a
-  // texel and 8 a knot of a texel whose smoke and surfaces are grey, 16 a knot of others; while it builds, 8
+  // texel and 8 a knot of a texel whose smoke or surfaces are grey, 16 a knot of others; while it builds, 8
   // bytes a texel of a window and 16 a translucent surface in it, more with some strategies
   // (lists/lists_gpu.h). Throws Memory when no plan fits that the budget allows, or one texel's lists are
   // over theirs.
@@ -96,11 +89,14 @@ class Maps {
   // For shaders that include shaders/deepshadow/lookup.glsl.
   void bind() const;
   size_t linkedNodes() const { return linkedNodes_; }  // of linked lists
-  // A light's map, read back.
+  // A light's map, read back, with the smoke as it is looked up in the middle of each texel.
   ReadMap read(size_t light) const;
+  // At most, of what read() gives.
+  size_t knotsAtMost(size_t light) const;
 
  private:
   size_t arrange(const MapInputs& inputs);
+  int smokeSideOf(const MapInputs& inputs, size_t light) const;
   bool tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, size_t units);
   void buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels);
   void uploadFaces(gl::Device& device);

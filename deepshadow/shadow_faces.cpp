@@ -13,6 +13,7 @@ using glm::dvec3;
 namespace {
 
 constexpr double marginTexels = 2;
+constexpr int leastSmokeShare = 16;  // so that a texel of smoke does not stand for very many of surfaces
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A space at `origin` that looks along `forward` (unit) with -Z.
@@ -41,6 +42,18 @@ FaceProjection perspectiveFace(const dvec3& forward, const dvec3& origin, double
 
 int faceSide(int resolution) {
   return std::max(32, resolution / 16 * 16);
+}
+
+int smokeSide(const FaceProjection& face, const dmat4& worldFromUnit, double width, double reach) {
+  const dmat4 faceFromUnit = glm::inverse(face.worldFromFace) * worldFromUnit;
+  double farthest = 0;
+  for (int corner = 0; corner < 8; ++corner)
+    farthest =
+        std::max(farthest, -(faceFromUnit * glm::dvec4(corner & 1, corner >> 1 & 1, corner >> 2, 1)).z);
+  const double extent = 2 * std::max(face.halfExtent.x, face.halfExtent.y);
+  const double widest = face.orthographic ? extent : extent * std::min(farthest, reach);
+  const double texels = std::clamp(std::ceil(widest / width), 1.0, double(face.side));
+  return std::max(static_cast<int>(texels), (face.side - 1) / leastSmokeShare + 1);
 }
 
 FaceProjection directionalFace(const dvec3& direction, int side, std::span<const dvec3> receivers,
@@ -92,11 +105,11 @@ shared::ShadowFace faceData(const FaceProjection& face, size_t firstTexel) {
   data.faceFromWorld = glm::inverse(face.worldFromFace);
   const glm::dvec2 scale = static_cast<double>(face.side) / (2.0 * face.halfExtent);
   data.projection = glm::vec4(glm::vec2(scale), glm::vec2(face.side / 2.0));
-  data.texels = {static_cast<int>(firstTexel), face.side, face.orthographic ? 0 : 1, 0};
+  data.texels = {static_cast<int>(firstTexel), face.side, face.orthographic ? 0 : 1, face.smokeSide};
   return data;
 }
 
-shared::ViewParams faceView(const FaceProjection& face) {
+shared::ViewParams faceView(const FaceProjection& face, int side) {
   shared::ViewParams view{};
   view.viewFromWorld = glm::inverse(face.worldFromFace);
   view.worldFromView = face.worldFromFace;
@@ -110,7 +123,7 @@ shared::ViewParams faceView(const FaceProjection& face) {
   view.clipFromView = clip;
   view.halfExtent = glm::vec4(glm::vec2(face.halfExtent), face.orthographic ? 1.f : 0.f, 0.f);
   view.depthRange = {0.f, 3e38f, 0.f, 0.f};
-  view.size = {face.side, face.side, 0, 0};
+  view.size = {side, side, 0, 0};
   return view;
 }
 

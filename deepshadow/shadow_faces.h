@@ -16,11 +16,16 @@ struct FaceProjection {
   bool orthographic = false;
   glm::dvec2 halfExtent{1.0};  // of the map at depth 1 (perspective) or anywhere (orthographic), m
   int side = 0;                // texels
+  int smokeSide = 0;           // texels of smoke; 0: none
 };
 
 // The side of a face for a map of `resolution` texels: a multiple of 16, at least 32, so that the faces of a
 // cube, which have half, are whole workgroups.
 int faceSide(int resolution);
+
+// Texels a side that a face needs for smoke in a box (the image of the unit cube), so that none is wider than
+// `width` metres in what is lit of it, which is up to `reach` metres deep.
+int smokeSide(const FaceProjection& face, const glm::dmat4& worldFromUnit, double width, double reach);
 
 // Texels of a face whose lists are built together.
 constexpr size_t windowTexels = size_t{1} << 20;
@@ -43,8 +48,8 @@ std::vector<FaceProjection> cubeFaces(const glm::dvec3& position, int side);
 
 // A face as lookups know it; its texels count from `firstTexel` on.
 shared::ShadowFace faceData(const FaceProjection& face, size_t firstTexel);
-// A face as something to draw into. Clip z is 0: fragments tell their depth themselves, and draws clamp what
-// is before the near or behind the far plane.
-shared::ViewParams faceView(const FaceProjection& face);
+// A face as something of so many texels a side to draw into. Clip z is 0: fragments tell their depth
+// themselves, and draws clamp what is before the near or behind the far plane.
+shared::ViewParams faceView(const FaceProjection& face, int side);
 
 }  // namespace sfumato::deepshadow

@@ -195,8 +195,7 @@ std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t li
         base::ExitCode::Usage,
         "deep shadow map of light {}: it reaches nothing that is seen and has no map: choose another light",
         light);
-  constexpr size_t knotsInUnit = 2;  // at most
-  const size_t atMost = (knotsInUnit * map.units + map.texels) * sizeof(image::DeepSample) +
+  const size_t atMost = (maps.knotsAtMost(light) + map.texels) * sizeof(image::DeepSample) +
                         map.texels * sizeof(std::vector<int>);
   if (atMost > limits.sampleBytes) failOverMemory(atMost, limits.sampleBytes);
   const deepshadow::ReadMap read = maps.read(light);

@@ -31,8 +31,8 @@ std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
   return faces;
 }
 
-gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, int scatteringOctaves) {
-  return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(scatteringOctaves));
+gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, const Quality& quality) {
+  return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(quality));
 }
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -226,7 +226,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality.scatteringOctaves);
+  gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality);
   SmokeBlocks blocks;
   if (inputs.quality.halfResolutionSmoke && !inputs.scene.volumes().empty() && !frame.deep) {
     blocks = marchBlocks(device, inputs, defines, frame.statistics);
@@ -401,7 +401,7 @@ LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene&
     : scene_(device, scene, media, gridOptions) {
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
-  device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), 0));
+  device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), Quality{}));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,

@@ -51,14 +51,16 @@ SceneGpu::SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<cons
   for (const volumes::Medium& medium : media) mediaBoxes_.push_back(volumes::worldFromUnit(medium));
 }
 
-gl::ShaderDefines SceneGpu::lightingDefines(int scatteringOctaves) const {
+gl::ShaderDefines SceneGpu::lightingDefines(const Quality& quality) const {
   gl::ShaderDefines defines;
   if (geometry_.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (scene_.ambient != glm::dvec3(0)) defines.emplace_back("AMBIENT", "1");
   if (volumes_.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
   if (volumes_.burning()) defines.emplace_back("FIRE", "1");
-  if (scatteringOctaves > 0) defines.emplace_back("SCATTER_OCTAVES", std::to_string(scatteringOctaves));
+  if (quality.smokeShadows == ShadowFilter::Nearest) defines.emplace_back("NEAREST_SMOKE_SHADOWS", "1");
+  if (quality.scatteringOctaves > 0)
+    defines.emplace_back("SCATTER_OCTAVES", std::to_string(quality.scatteringOctaves));
   return gl::joined(defines, volumes_.defines());
 }
 

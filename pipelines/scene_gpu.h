@@ -53,7 +53,7 @@ class SceneGpu {
   const volumes::VolumesGpu& volumes() const { return volumes_; }
 
   // Of programs that light surfaces or march through smoke.
-  gl::ShaderDefines lightingDefines(int scatteringOctaves) const;
+  gl::ShaderDefines lightingDefines(const Quality& quality) const;
   // Of the whole image at once, from a G-buffer of its own; nothing where none is asked for, or where there
   // is no ambient light to take from.
   std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view,

@@ -58,10 +58,11 @@ shared::VolumeData fireData(const Fire& fire, std::vector<glm::vec4>& ramps) {
 }  // namespace
 
 VolumesGpu::VolumesGpu(gl::Device& device, std::span<const Medium> media, const GridOptions& options)
-    : count_(media.size()), grids_(device, gridsOf(media), options) {
+    : grids_(device, gridsOf(media), options) {
   std::vector<shared::VolumeData> data;
   for (const Medium& medium : media) {
     data.push_back(volumeData(medium));
+    extents_.push_back({worldFromUnit(medium), voxelSize(medium.worldFromIndex)});
     coloured_ = coloured_ || isColoured(medium);
   }
   std::vector<glm::vec4> ramps;

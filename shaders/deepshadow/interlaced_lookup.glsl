@@ -63,6 +63,10 @@ Told toldInSmoke(ShadowFace face, ivec2 texel, float depth) {
   return Told(translucent, 1.0, before ? 0.0 : 1.0, translucent && before ? letThrough(face, texel) : vec3(1.0));
 }
 
+int texelsOfFace(ShadowFace face) {
+  return face.texels.y * face.texels.y;
+}
+
 // Of a point in smoke, in the view space of the face that sees it; `side`: see Taps.
 vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   float depth = -pFace.z;

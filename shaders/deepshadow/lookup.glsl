@@ -1,4 +1,5 @@
-// How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built.
+// How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built. VOLUME_COUNT is
+// defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel.
 #include "shaders/deepshadow/faces.glsl"
 
 // As buffer textures, because all maps together may be larger than one storage block.
@@ -46,7 +47,7 @@ vec3 opticalDepthAt(ShadowTexel texel, float depth) {
 
 #endif
 
-// Through what lets light pass, opaque surfaces aside; `ownTau` is taken out.
+// Through surfaces that let light pass; `ownTau` is taken out.
 vec3 runTransmittance(ShadowTexel texel, float depth, vec3 ownTau) {
   return knotCount(texel) == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel, depth), 0.0));
 }
@@ -73,6 +74,7 @@ vec3 takeOwnSteps(inout ShadowTexel texel, float depth, float slack, uint object
   return ownTau;
 }
 
+// Smoke aside.
 vec3 texelTransmittance(uint number, float depth) {
   ShadowTexel texel = shadowTexel(number);
   return depth > texel.opaqueDepth ? vec3(0.0) : runTransmittance(texel, depth, vec3(0.0));
@@ -83,19 +85,61 @@ uint texelNumber(ShadowFace face, ivec2 texel) {
   return uint(face.texels.x + texel.y * face.texels.y + texel.x);
 }
 
+// Of its surfaces, then of its smoke.
+int texelsOfFace(ShadowFace face) {
+  return face.texels.y * face.texels.y + face.texels.w * face.texels.w;
+}
+
+// Of the smoke, at a place in texels of surfaces.
+vec2 smokePlace(ShadowFace face, vec2 place) {
+  return place * (float(face.texels.w) / float(face.texels.y));
+}
+
+uint smokeTexelNumber(ShadowFace face, ivec2 texel) {
+  texel = clamp(texel, ivec2(0), ivec2(face.texels.w - 1));
+  return uint(face.texels.x + face.texels.y * face.texels.y + texel.y * face.texels.w + texel.x);
+}
+
+// Through the smoke before a point: the optical depths of the four texels around it, bilinearly.
+vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
+  vec3 tau = vec3(0.0);
+#if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
+  Taps taps = tapsAround(smokePlace(face, place), 2);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
+    if (knotCount(texel) != 0u) tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
+  }
+#endif
+  return exp(-tau);
+}
+
+// The same of the nearest one.
+vec3 nearestSmokeTransmittance(ShadowFace face, vec2 place, float depth) {
+#if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
+  ShadowTexel texel = shadowTexel(smokeTexelNumber(face, ivec2(floor(smokePlace(face, place)))));
+  return runTransmittance(texel, depth, vec3(0.0));
+#else
+  return vec3(1.0);
+#endif
+}
+
 // Of a point in smoke, in the view space of the face that sees it; `side`: see Taps.
 vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   float depth = -pFace.z;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(depth, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
-  if (side == 1) return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth);
+#ifdef NEAREST_SMOKE_SHADOWS
+  return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth) * nearestSmokeTransmittance(face, place, depth);
+#else
   Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
     ivec2 offset = ivec2(i % side, i / side);
     sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
-  return sum;
+  return sum * (side == 1 ? nearestSmokeTransmittance(face, place, depth) : smokeTransmittance(face, place, depth));
+#endif
 }
 
 // The opaque depth that a texel's surface would have `offset` texels away from its centre, towards a point, if it went on
@@ -161,5 +205,6 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
       }
     }
   }
-  return told > 0.0 ? sum / told : doubtful;
+  vec3 through = told > 0.0 ? sum / told : doubtful;
+  return through * smokeTransmittance(face, place, ownDepth - rounding);
 }

@@ -20,7 +20,7 @@ layout(binding = TEXTURE_BASE_COLOUR) uniform pixelSampler opaqueBaseColour;
 
 const uint LIST_LIMIT = 20000u;  // of each of two walks: below the drivers' loop limit
 
-// Nodes in the texel of a light's map that holds a point which the light reaches.
+// Nodes in the texels, of surfaces and of smoke, of a light's map that hold a point which the light reaches.
 uint nodesOfTexel(uint number, vec3 p) {
   LightData light = lights[number];
   vec3 toLight;
@@ -29,7 +29,9 @@ uint nodesOfTexel(uint number, vec3 p) {
   vec3 pFace = (face.faceFromWorld * vec4(p, 1.0)).xyz;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(-pFace.z, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
-  return knotCount(shadowTexel(texelNumber(face, ivec2(floor(place)))));
+  uint nodes = knotCount(shadowTexel(texelNumber(face, ivec2(floor(place)))));
+  if (face.texels.w != 0) nodes += knotCount(shadowTexel(smokeTexelNumber(face, ivec2(floor(smokePlace(face, place))))));
+  return nodes;
 }
 
 // Depth of a sample's surface where the sample is; G-buffers hold it for the pixel's centre.

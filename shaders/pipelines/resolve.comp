@@ -111,11 +111,17 @@ void main() {
 #ifdef SMOKE
     float limit = min(nextSurface, media.rangeOfAll.y);
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
-    Steps steps = nextSteps(media, ray.metresPerDepth, limit, depth, throughput);
-    if (steps.count > 0) {
-      vec3 added = scattered(steps, ray);
-      radiance += added;
-      recordEvent(depth - steps.size[0], depth, added, throughput);
+    // All of the smoke before the next surface: some drivers run the code of surfaces in each pass of the loop around it,
+    // whether or not a lane is at one.
+    bool marching = depth < limit;
+    while (marching) {
+      Steps steps = nextSteps(media, ray.metresPerDepth, limit, depth, throughput);
+      if (steps.count > 0) {
+        vec3 added = scattered(steps, ray);
+        radiance += added;
+        recordEvent(depth - steps.size[0], depth, added, throughput);
+      }
+      marching = depth < limit && maxComponent(throughput) >= params.march.y && work < uint(RESOLVE_WORK_LIMIT);
     }
     atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
 #endif

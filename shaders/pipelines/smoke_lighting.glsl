@@ -31,6 +31,10 @@ void appendStep(inout Steps steps, float depth, float size, float scattered[VOLU
   ++steps.count;
 }
 
+vec3 seenOf(Steps steps, int k) {
+  return vec3(steps.seen[0][k], steps.seen[1][k], steps.seen[2][k]);
+}
+
 // What the media turn from light that travels along `direction` towards the viewer; `passing` of it gets there.
 vec3 turned(Steps steps, int k, vec3 direction, vec3 towardsViewer, vec3 passing) {
   vec3 sum = vec3(0.0);
@@ -93,6 +97,8 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
     perDepth = mat3(face.faceFromWorld) * ray.perDepth;
   }
   vec3 sum = vec3(0.0);
+  uint nearby = 0u;       // steps close to the light
+  vec4 passingNearby[3];  // of these
   for (int k = 0; k < steps.count; ++k) {
     float depth = steps.depth[k];
     if (depth < front || depth > back) continue;
@@ -107,7 +113,7 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
         if (cube) {
           // All six look alike but for their axes.
           int side = faceTowards(6, p - light.position.xyz);
-          seen.texels.x += side * face.texels.y * face.texels.y;
+          seen.texels.x += side * texelsOfFace(face);
           pFace = inCubeFace(side, p - light.position.xyz);
         }
         COUNT_LOOKUP(y);
@@ -115,11 +121,20 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
       }
       float stepLength = steps.size[k] * ray.metresPerDepth;
       vec3 distances = light.position.xyz - p;
-      bool nearby = light.indices.x != LIGHT_DIRECTIONAL && dot(distances, distances) < 16.0 * stepLength * stepLength;
-      if (nearby) added = turnedFromNearby(light, steps, k, ray, passing);
-      else added *= turned(steps, k, -toLight, ray.towardsViewer, passing);
-      sum += vec3(steps.seen[0][k], steps.seen[1][k], steps.seen[2][k]) * added;
+      if (light.indices.x != LIGHT_DIRECTIONAL && dot(distances, distances) < 16.0 * stepLength * stepLength) {
+        nearby |= 1u << k;
+        for (int c = 0; c < 3; ++c) passingNearby[c][k] = passing[c];
+      } else {
+        sum += seenOf(steps, k) * added * turned(steps, k, -toLight, ray.towardsViewer, passing);
+      }
     }
+  }
+  // Apart, because some drivers run what few steps need for all of them.
+  while (nearby != 0u) {
+    int k = findLSB(nearby);
+    nearby &= nearby - 1u;
+    vec3 passing = vec3(passingNearby[0][k], passingNearby[1][k], passingNearby[2][k]);
+    sum += seenOf(steps, k) * turnedFromNearby(light, steps, k, ray, passing);
   }
   work += uint(8 * STEPS);
   return sum;

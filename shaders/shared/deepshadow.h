@@ -7,10 +7,13 @@ SHARED_BEGIN
 struct ShadowFace {
   mat4 faceFromWorld;  // view space of the face; depth is along -Z
   vec4 projection;     // texel = xy * scale + offset; xy is divided by depth first when perspective
-  ivec4 texels;        // x: number of its first texel, y: side, z: 1 for perspective; w: of interlaced maps, first column
+  // x: number of its first texel, y: side, z: 1 for perspective; w: side of its texels of smoke, which stand behind the
+  // others, 0: none; of interlaced maps, first column
+  ivec4 texels;
 };
 
-// The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots.
+// The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots. Those of
+// surfaces and those of smoke are multiplied.
 // The pool's unit is 16 bytes: one knot of a coloured texel, two (depth, tau) of a grey one, whose odd last is followed
 // by one at NOTHING_OPAQUE.
 // Steps of objects that do not shadow themselves stand in the list once more, behind those knots, so that they can be
@@ -19,7 +22,7 @@ struct ShadowFace {
 struct ShadowTexel {
   uint first;         // unit of the pool
   uint count;         // knots; and SHADOW_GREY, SHADOW_OWN_STEPS
-  float opaqueDepth;  // 3e38: nothing opaque
+  float opaqueDepth;  // 3e38: nothing opaque; of smoke always
 };
 
 struct ShadowKnot {

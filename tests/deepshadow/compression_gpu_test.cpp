@@ -223,7 +223,7 @@ TEST_F(ShadowBudgetGpu, MoreSurfacesThanUsualAreFoundOutAndFit) {
 TEST_F(ShadowBudgetGpu, WhatWasAskedForExactlyIsKept) {
   const KnownScene known = threeLights();
   const MapPlan asked{{128, 128, 128}, 1.0 / 2048};
-  const size_t bytes = maps(known, asked, {}).bytes() * 8 / 10;
+  const size_t bytes = maps(known, asked, {}).bytes() * 19 / 20;  // the texels alone take most of them
   const Maps looser = maps(known, asked, {.bytes = bytes, .lowerResolution = false});
   EXPECT_EQ(looser.plan().resolutions, asked.resolutions);
   EXPECT_GT(looser.plan().error, asked.error);

@@ -1,0 +1,87 @@
+// Writes the knots of a face's texels of smoke, marched from the light to the farthest opaque depth that anything which
+// reads them is before. Smoke comes in order of depth by itself: it needs no list. Its knots are kept while they are
+// counted; what is more than a few is marched again.
+#include "shaders/deepshadow/knot_pool.glsl"
+#include "shaders/deepshadow/smoke_march.glsl"
+
+const uint KEPT = 24u;
+SmokeKnot kept[KEPT];
+
+// Of what is lit through this texel or its neighbours, that is in a square of two texels of smoke and in what filters reach
+// beyond it; `enough` or more where that is as far as anybody wants to know.
+float farthestOpaque(ivec2 texel, float enough) {
+  const float REACH = 2.0;  // of the widest filter, in texels of surfaces
+  ivec2 size = textureSize(opaqueDepth, 0);
+  vec2 ratio = vec2(size) / vec2(view.size.xy);
+  ivec2 first = max(ivec2((vec2(texel) - 0.5) * ratio - REACH), ivec2(0));
+  ivec2 end = min(ivec2((vec2(texel) + 1.5) * ratio + REACH), size - 1);
+  float farthest = 0.0;
+  for (int y = first.y; y <= end.y && farthest < enough; y += 2) {
+    for (int x = first.x; x <= end.x && farthest < enough; x += 2) {
+      vec4 four = textureGather(opaqueDepth, vec2(x + 1, y + 1) / vec2(size));
+      farthest = max(farthest, max(max(four.x, four.y), max(four.z, four.w)));
+    }
+  }
+  return farthest;
+}
+
+SmokeRay smokeRay(ivec2 texel) {
+  vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
+  bool orthographic = view.halfExtent.z != 0.0;
+  vec3 originView = orthographic ? vec3(plane, 0.0) : vec3(0.0);
+  vec3 perDepthView = orthographic ? vec3(0.0, 0.0, -1.0) : vec3(plane, -1.0);
+  vec3 origin = (view.worldFromView * vec4(originView, 1.0)).xyz;
+  vec3 perDepth = mat3(view.worldFromView) * perDepthView;
+  SmokeRay ray;
+  ray.media = mediaRay(origin, perDepth, vec2(0.0, NOTHING_OPAQUE), params.march.x);
+  vec2 range = ray.media.rangeOfAll;
+  ray.end = range.x < range.y ? min(range.y, farthestOpaque(texel, range.y)) : range.y;
+  ray.metresPerDepth = length(perDepth);
+  ray.bound = params.march.y;
+  float tooMany = range.x < ray.end ? stepsAtMost(ray.media) / MAX_STEPS : 0.0;
+  if (tooMany > 1.0) {
+    atomicAdd(counters.boundHit, 1u);
+    for (int v = 0; v < VOLUME_COUNT; ++v) ray.media.stride[v] *= tooMany;
+  }
+  return ray;
+}
+
+void writeKnot(SmokeKnot knot) {
+  writeKnot(knot.depth, vec3(knot.tau));
+}
+
+void main() {
+  if (!isWritten()) return;
+  SmokeRay ray = smokeRay(texelOfCell());
+  SmokeMarch march = startOfMarch(ray);
+  SmokeMarch rest = march;  // after the knots that are kept
+  SmokeKnot knot;
+  uint count = 0u;
+  while (goesOn(march, ray)) {
+    if (marchStep(ray, march, knot)) {
+      if (count < KEPT) kept[count] = knot;
+      ++count;
+      if (count == KEPT) rest = march;
+    }
+  }
+#ifdef COLOURED_SMOKE
+  grey = false;
+#endif
+  uint first;
+  if (!takeUnits(grey ? (count + 1u) / 2u : count, first)) return;
+  texels[numberOfCell()] = ShadowTexel(uint(params.units.x) + first, count | (grey ? SHADOW_GREY : 0u), NOTHING_OPAQUE);
+
+  place = 2u * first;
+  for (uint i = 0u; i < min(count, KEPT); ++i) writeKnot(kept[i]);
+  // A march that gave other knots this time could not write beyond its own.
+  SmokeKnot last = march.segment;
+  uint left = count > KEPT ? count - KEPT : 0u;
+  while (left != 0u && goesOn(rest, ray)) {
+    if (marchStep(ray, rest, knot)) {
+      writeKnot(knot);
+      --left;
+    }
+  }
+  for (; left != 0u; --left) writeKnot(last);
+  if (grey && (count & 1u) != 0u) writeKnot(NOTHING_OPAQUE, vec3(last.tau));
+}
