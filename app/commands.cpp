@@ -214,8 +214,7 @@ void addDeferred(CLI::App& command, RenderOptions& options) {
         ->type_name("NAME")
         ->check(oneOf(names));
   };
-  choose("--shadows", options.shadows, "Of pipelines but lund", pipelines::shadowKinds().names,
-         "theirs");
+  choose("--shadows", options.shadows, "Of pipelines but lund", pipelines::shadowKinds().names, "theirs");
   choose("--interlace", options.interlace, "Pixels of translucent surfaces", pipelines::interlaces().names,
          options.interlace);
   choose("--storage", options.storage, "Targets: of floats, or of 8 and 10 bits", pipelines::storages().names,

@@ -88,6 +88,7 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
                            {"predicted_bytes", maps.predictedBytes},
                            {"budget_bytes", maps.budgetBytes}};
   result["memory"] = {{"peak_bytes", device.memory().peakBytes()},
+                      {"program_bytes", device.programBytes()},
                       {"peak_bytes_by_label", device.memory().peakBytesByLabel()}};
   return base::jsonText(result);
 }

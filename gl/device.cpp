@@ -325,6 +325,17 @@ Reset Device::resetStatus() const {
   }
 }
 
+std::map<std::string, size_t> Device::programBytes() const {
+  std::map<std::string, size_t> bytes;
+  for (const auto& [key, program] : programs_) {
+    // Files and defines, a line each.
+    std::string label = key.substr(0, key.size() - 1);
+    std::replace(label.begin(), label.end(), '\n', ' ');
+    bytes[label] = program->bytes();
+  }
+  return bytes;
+}
+
 const Program& Device::program(const std::vector<std::string>& names, const ShaderDefines& defines) {
   std::string key;
   for (const std::string& name : names) key += name + '\n';

@@ -108,6 +108,9 @@ class Device {
   // The program of these shader files and defines (gl/program.h), built when it is first asked for.
   const Program& program(const std::vector<std::string>& names, const ShaderDefines& defines = {});
 
+  // The bytes of all of them: gl/program.h. Asking takes the driver a while.
+  std::map<std::string, size_t> programBytes() const;
+
   // For draws without attributes: a core profile draws nothing without a vertex array.
   unsigned emptyVertexArray() const { return emptyVertexArray_; }
 

@@ -78,6 +78,12 @@ Program::Program(const Device& device, const std::vector<std::string>& names, co
   fail(ExitCode::Bug, "shader {}: does not link: {}", names.back(), log);
 }
 
+size_t Program::bytes() const {
+  GLint bytes = 0;
+  glGetProgramiv(name(), GL_PROGRAM_BINARY_LENGTH, &bytes);
+  return static_cast<size_t>(bytes);
+}
+
 std::string compileProblem(const Device& device, const std::string& name, const ShaderDefines& defines) {
   try {
     compile(device, name, defines);

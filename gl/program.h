@@ -27,6 +27,8 @@ class Program {
   Program(const Device& device, const std::vector<std::string>& names, const ShaderDefines& defines = {});
 
   unsigned name() const { return object_.name(); }
+  // Of the binary that the driver made of it, as far as it tells; 0 where it keeps none.
+  size_t bytes() const;
 
   // Every member of the active storage blocks (for the layout test).
   std::vector<BlockMember> storageMembers() const;

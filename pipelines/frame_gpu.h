@@ -43,8 +43,8 @@ struct FrameStatistics {
   ShadowFigures shadowMaps;                   // of all of them
   size_t splitPixels = 0;                     // walked sample by sample
   int resolveDispatches = 0;
-  size_t cutWalks = 0;  // 0, or walks that a bound cut: the picture is then wrong, and the user is told
-  Lookups lookups;      // where they were to be counted
+  size_t cutWalks = 0;     // 0, or walks that a bound cut: the picture is then wrong, and the user is told
+  Lookups lookups;         // where they were to be counted
   int geometryPasses = 0;  // of a pipeline of layers: draws of the scene's surfaces, shadow maps aside
   size_t triangles = 0;
   size_t tiles = 0;  // drawn one after the other; figures are sums over them

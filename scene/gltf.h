@@ -19,10 +19,9 @@ namespace sfumato::scene {
 // "volume_scale", "volume_extinction" (three numbers: its colour), "volume_albedo" (likewise), "volume_g",
 // "volume_fire" (a grid that glows), "volume_fire_kelvin", "volume_fire_ramp" (colours),
 // "volume_fire_strength", "volume_fire_lights" (an integer): see VolumePlacement; materials with extras
-// "shadow_self", "shadow_once" (booleans) and "shadow_rim" (a number, 0 or more): see Material; the scene with
-// extras "ambient" (three numbers, 0 to 1e6): see Scene. A warning,
-// once each: points and lines, and extensions that are used but not required and not supported. These are
-// left out.
+// "shadow_self", "shadow_once" (booleans) and "shadow_rim" (a number, 0 or more): see Material; the scene
+// with extras "ambient" (three numbers, 0 to 1e6): see Scene. A warning, once each: points and lines, and
+// extensions that are used but not required and not supported. These are left out.
 //
 // `seconds`: the pose that all animations of the file have at that time, held before their first key and
 // after their last; of two that target the same property, the later one in the file counts. Without it the

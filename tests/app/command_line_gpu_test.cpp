@@ -618,6 +618,7 @@ TEST_F(CommandLineRender, WritesFigures) {
   EXPECT_EQ(figures["lists"]["lights"]["cells"], 16 * 12);
   EXPECT_EQ(figures["lists"]["shadows"].size(), 1u);
   EXPECT_GT(figures["memory"]["peak_bytes"], 64 * 48 * 36);
+  EXPECT_GT(figures["memory"]["program_bytes"].size(), 5u);
 }
 
 TEST_F(CommandLineRender, SaysWhatAmbientOcclusionWasAndTook) {
