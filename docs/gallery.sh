@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Makes every picture of docs/gallery.md and docs/post_processing.md: builds, writes the scenes into out/gallery,
+# Makes every picture of docs/gallery.md, docs/post_processing.md and docs/pipelines.md: builds, writes the scenes into out/gallery,
 # renders them into docs/images.
 # Arguments are passed on to `sfumato render`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cmake/prepare.sh
-cmake --build --preset release --target sfumato make_gallery_scenes
+cmake --build --preset release --target sfumato make_gallery_scenes make_demo_scene
 build/release/demos/make_gallery_scenes out/gallery
 
 for scene in out/gallery/*.gltf; do
@@ -36,3 +36,17 @@ shape bloom_mipmap slide "${small[@]}" --bloom mipmap --bloom-strength 0.5 "$@"
 coarse=(--res 160x90 --quality draft)
 shape aa_off grazing "${coarse[@]}" "$@"
 shape aa_edges grazing "${coarse[@]}" --aa edges "$@"
+
+# The pictures of docs/pipelines.md: the glass globe of the demo scene, drawn in several ways.
+build/release/demos/make_demo_scene out
+globe() {
+  echo "== docs/images/globe_$1.png"
+  build/release/app/sfumato render out/demo.gltf --res 240x192 --quality draft --fov 14 --look-at 1.05 1.15 2.5 \
+    -o "docs/images/globe_$1.png" "${@:2}"
+}
+globe lund "$@"
+globe interlaced --pipeline interlaced --shadows deep "$@"
+globe table --pipeline interlaced --shadows deep --storage table "$@"
+globe refraction --pipeline interlaced --shadows deep --refraction 0.15 "$@"
+globe mask --pipeline forward-mask --shadows deep --refraction 0.15 "$@"
+globe interlaced_shadows --pipeline interlaced "$@"
