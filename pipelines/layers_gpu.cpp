@@ -128,7 +128,8 @@ gl::ShaderDefines LayeredFrame::lightingDefines() const {
   const gl::ShaderDefines shadows =
       interlaced_ ? deepshadow::lookupDefines(interlacedKind(shadowKind_, options().storage))
                   : gl::ShaderDefines{};
-  return gl::joined(gl::joined(scene_.lightingDefines(quality_), storageDefines()), shadows);
+  return gl::joined({{"SAMPLES", "1"}},
+                    gl::joined(gl::joined(scene_.lightingDefines(quality_), storageDefines()), shadows));
 }
 
 gl::ShaderDefines LayeredFrame::interlaceDefines() const {

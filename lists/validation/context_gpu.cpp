@@ -69,6 +69,9 @@ Result shaders(const Context& context) {
                         {"GRID_BRICK_SIDE", "8"},
                         {"SURFACES", "1"},
                         {"SHADOW_OBJECTS", "1"},
+                        {"AMBIENT", "1"},
+                        {"SSAO", "2"},
+                        {"ROUTED_SAMPLES", "4"},
                         {"LIST_PASS", pass}});
   int64_t compiled = 0;
   Result result;

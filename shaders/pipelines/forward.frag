@@ -1,6 +1,5 @@
 // A surface as a forward renderer lights it (Aladagli 2015, section 4.1.3): first what it gives by itself, with depth, normal
 // and what it lets through; then, with LIGHT defined, what one light adds. TRANSLUCENT, INTERLACE: see layer.frag.
-#define SAMPLES 1
 #include "shaders/pipelines/brdf.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer_ambient.glsl"

@@ -2,7 +2,6 @@
 // section 3.3): each pixel finds what it lacks beside it, and its ray is taken through both and the smoke before them.
 // INTERLACE says which pixels are which. REFRACT_BY_MASK takes what is seen through a surface from anywhere that a
 // translucent surface covers, as a renderer without depths has to; else from anywhere behind it.
-#define SAMPLES 1
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/interlace.glsl"
 #include "shaders/shared/bindings.h"

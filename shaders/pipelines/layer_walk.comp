@@ -1,7 +1,6 @@
 // Takes the pixels' rays on to a layer's surfaces: through the smoke before them, then past them. LAST is defined for the
 // layer that ends all rays, also where it has no surface; a ray that has done much work goes on in the next dispatch.
 // BENT is defined where the first surface bends the way to the last layer.
-#define SAMPLES 1
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer.glsl"
 #include "shaders/pipelines/smoke_segment.glsl"

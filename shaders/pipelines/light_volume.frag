@@ -1,5 +1,4 @@
 // What a light adds to a layer's surfaces. TABLE_STORAGE: see layer.glsl; FINISHED: radiance all the same.
-#define SAMPLES 1
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer.glsl"
 #include "shaders/pipelines/surface_lighting.glsl"

@@ -1,6 +1,5 @@
 // What a layer's surfaces let through of the finished light behind them and of the smoke between: the 'background'. TO_CAMERA:
 // what reaches the camera. A ray that has done much work goes on in the next dispatch; params.options.x numbers the segments.
-#define SAMPLES 1
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer.glsl"
 #include "shaders/pipelines/smoke_segment.glsl"

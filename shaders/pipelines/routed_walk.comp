@@ -1,7 +1,6 @@
 // Takes the rays of a part of the image (view.tile) past all its translucent surfaces, which stand in samples in the order
 // in which they were drawn: picks the nearest one that was not met yet, marches there, lights it, goes on. Fragment n of a
 // pixel is in layer n / ROUTED_SAMPLES. A ray that has done much work goes on in the next dispatch.
-#define SAMPLES 1
 #define ROUTED
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/layer.glsl"
