@@ -127,22 +127,27 @@ void addFire(CLI::App& command, RenderOptions& options) {
       ->check(wholeBetween(0, 64));
 }
 
-void addView(CLI::App& command, RenderOptions& options) {
-  const auto add = [&](const char* name, auto& value, const char* help) {
-    return command.add_option(name, value, help)->group("View");
-  };
-  const auto takeResolution = [&options](const std::string& text) {
+// Of `options.width` and `options.height`.
+template <typename Options>
+CLI::Option& addResolution(CLI::App& command, Options& options, const std::string& help) {
+  const auto take = [&options](const std::string& text) {
     const Resolution size = parseResolution(text).value();
     options.width = size.width;
     options.height = size.height;
   };
-  command
-      .add_option_function<std::string>(
-          "--res", takeResolution,
-          fmt::format("Image size: 1 to 16384 pixels a side, else {}x{}", options.width, options.height))
-      ->type_name("WxH")
-      ->check(resolution())
-      ->group("View");
+  return *command.add_option_function<std::string>("--res", take, help)
+              ->type_name("WxH")
+              ->check(resolution());
+}
+
+void addView(CLI::App& command, RenderOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("View");
+  };
+  addResolution(
+      command, options,
+      fmt::format("Image size: 1 to 16384 pixels a side, else {}x{}", options.width, options.height))
+      .group("View");
   add("--camera", options.camera, "Camera of the scene; else its first, or one that sees everything")
       ->type_name("NAME");
   add("--time", options.timeSeconds, "Pose the scene as its animations have it then; else at rest")
@@ -501,19 +506,10 @@ void addPaperTests(CLI::App& command, PapersOptions& options) {
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command.add_option(name, value, help)->group("Tests");
   };
-  const auto takeResolution = [&options](const std::string& text) {
-    const Resolution size = parseResolution(text).value();
-    options.width = size.width;
-    options.height = size.height;
-  };
-  command
-      .add_option_function<std::string>(
-          "--res", takeResolution,
-          fmt::format("Size for their 1920x1080, else {}x{}; all else in proportion", options.width,
-                      options.height))
-      ->type_name("WxH")
-      ->check(resolution())
-      ->group("Tests");
+  addResolution(command, options,
+                fmt::format("Size for their 1920x1080, else {}x{}; all else in proportion", options.width,
+                            options.height))
+      .group("Tests");
   add("--paper", options.paper, "metu (Aladagli 2015) or cescg (Ferko 2012), else both")
       ->type_name("NAME")
       ->check(oneOf({"metu", "cescg"}));

@@ -90,7 +90,7 @@ void addLight(LayeredFrame& frame, size_t number, const ForwardImage& image) {
 ForwardPipeline::ForwardPipeline(Refraction refraction, gl::Device& device, const scene::Scene& scene,
                                  std::span<const volumes::Medium> media,
                                  const volumes::GridOptions& gridOptions)
-    : refraction_(refraction), scene_(device, scene, media, gridOptions) {}
+    : Pipeline(device, scene, media, gridOptions), refraction_(refraction) {}
 
 Frame ForwardPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                               const FrameOptions& options) {

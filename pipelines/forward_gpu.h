@@ -21,11 +21,9 @@ class ForwardPipeline : public Pipeline {
   // of the ray. Throws Usage for Interlace::Full.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
-  const SceneGpu& scene() const override { return scene_; }
 
  private:
   Refraction refraction_;
-  SceneGpu scene_;
 };
 
 }  // namespace sfumato::pipelines

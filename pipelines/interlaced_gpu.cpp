@@ -18,11 +18,6 @@ Frame composeInterlaced(LayeredFrame& frame, const gl::ShaderDefines& defines,
   return frame.finish(walk);
 }
 
-InterlacedPipeline::InterlacedPipeline(gl::Device& device, const scene::Scene& scene,
-                                       std::span<const volumes::Medium> media,
-                                       const volumes::GridOptions& gridOptions)
-    : scene_(device, scene, media, gridOptions) {}
-
 Frame InterlacedPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                  const FrameOptions& options) {
   LayeredFrame frame(scene_, camera, width, height, quality, {ShadowKind::Interlaced, true});

@@ -15,16 +15,11 @@ namespace sfumato::pipelines {
 
 class InterlacedPipeline : public Pipeline {
  public:
-  InterlacedPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
-                     const volumes::GridOptions& gridOptions = {});
+  using Pipeline::Pipeline;
 
   // Bytes a pixel: one layer and its light (pipelines/layers_gpu.h) and 32 of its ray.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
-  const SceneGpu& scene() const override { return scene_; }
-
- private:
-  SceneGpu scene_;
 };
 
 // What shaders/pipelines/interlaced.comp makes of an interlaced image, as it was bound by `bindInputs`.

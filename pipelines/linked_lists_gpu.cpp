@@ -398,7 +398,7 @@ class TilePainter {
 LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
                                          std::span<const volumes::Medium> media,
                                          const volumes::GridOptions& gridOptions)
-    : scene_(device, scene, media, gridOptions) {
+    : Pipeline(device, scene, media, gridOptions) {
   // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
   const int samples = std::min(MAX_SAMPLES, device.limits().samples);
   device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), Quality{}));

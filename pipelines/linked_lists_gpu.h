@@ -22,10 +22,8 @@ class LinkedListsPipeline : public Pipeline {
   // or the lists of a single pixel, are over the device's limits.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
-  const SceneGpu& scene() const override { return scene_; }
 
  private:
-  SceneGpu scene_;
   size_t linkedNodes_ = 0;  // of the last frame, where lists stay linked: how large the next pool is
 };
 

@@ -25,11 +25,6 @@ Frame peel(LayeredFrame& frame, int mostLayers) {
   return frame.finish(walk);
 }
 
-PeelingPipeline::PeelingPipeline(gl::Device& device, const scene::Scene& scene,
-                                 std::span<const volumes::Medium> media,
-                                 const volumes::GridOptions& gridOptions)
-    : scene_(device, scene, media, gridOptions) {}
-
 Frame PeelingPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                               const FrameOptions& options) {
   LayeredFrame frame(scene_, camera, width, height, quality);

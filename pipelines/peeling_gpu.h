@@ -10,17 +10,12 @@ namespace sfumato::pipelines {
 
 class PeelingPipeline : public Pipeline {
  public:
-  PeelingPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
-                  const volumes::GridOptions& gridOptions = {});
+  using Pipeline::Pipeline;
 
   // Costs two G-buffers and two lights more than one layer does (pipelines/layers_gpu.h), however many
   // layers.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
-  const SceneGpu& scene() const override { return scene_; }
-
- private:
-  SceneGpu scene_;
 };
 
 // The picture of at most so many translucent layers before the opaque one; 0: of all.

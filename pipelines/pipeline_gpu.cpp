@@ -1,5 +1,7 @@
 #include "pipelines/pipeline_gpu.h"
 
+#include <type_traits>
+
 #include "pipelines/forward_gpu.h"
 #include "pipelines/interlaced_gpu.h"
 #include "pipelines/linked_lists_gpu.h"
@@ -14,18 +16,17 @@ std::unique_ptr<Pipeline> makePipeline(const std::string& name, gl::Device& devi
                                        std::span<const volumes::Medium> media,
                                        const volumes::GridOptions& gridOptions) {
   checkPipelineName(name);
-  if (name == "interlaced") return std::make_unique<InterlacedPipeline>(device, scene, media, gridOptions);
-  if (name == "forward")
-    return std::make_unique<ForwardPipeline>(ForwardPipeline::Refraction::ByDepth, device, scene, media,
-                                             gridOptions);
-  if (name == "forward-mask")
-    return std::make_unique<ForwardPipeline>(ForwardPipeline::Refraction::ByMask, device, scene, media,
-                                             gridOptions);
-  if (name == "peeling") return std::make_unique<PeelingPipeline>(device, scene, media, gridOptions);
-  if (name == "reentrant") return std::make_unique<ReentrantPipeline>(device, scene, media, gridOptions);
-  if (name == "stencil-routed")
-    return std::make_unique<StencilRoutedPipeline>(device, scene, media, gridOptions);
-  return std::make_unique<LinkedListsPipeline>(device, scene, media, gridOptions);
+  const auto make = [&]<typename Made>(std::type_identity<Made>, auto... first) {
+    return std::make_unique<Made>(first..., device, scene, media, gridOptions);
+  };
+  using Refraction = ForwardPipeline::Refraction;
+  if (name == "interlaced") return make(std::type_identity<InterlacedPipeline>());
+  if (name == "peeling") return make(std::type_identity<PeelingPipeline>());
+  if (name == "forward") return make(std::type_identity<ForwardPipeline>(), Refraction::ByDepth);
+  if (name == "forward-mask") return make(std::type_identity<ForwardPipeline>(), Refraction::ByMask);
+  if (name == "reentrant") return make(std::type_identity<ReentrantPipeline>());
+  if (name == "stencil-routed") return make(std::type_identity<StencilRoutedPipeline>());
+  return make(std::type_identity<LinkedListsPipeline>());
 }
 
 }  // namespace sfumato::pipelines

@@ -17,10 +17,17 @@ namespace sfumato::pipelines {
 
 class Pipeline {
  public:
+  // Uploads what the scene holds; it must outlive the pipeline.
+  Pipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
+           const volumes::GridOptions& gridOptions = {})
+      : scene_(device, scene, media, gridOptions) {}
   virtual ~Pipeline() = default;
   virtual Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                        const FrameOptions& options = {}) = 0;
-  virtual const SceneGpu& scene() const = 0;
+  const SceneGpu& scene() const { return scene_; }
+
+ protected:
+  SceneGpu scene_;
 };
 
 // The one of a name (pipelines/pipeline_names.h), with the scene uploaded; the scene must outlive it.

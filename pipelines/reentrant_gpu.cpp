@@ -111,11 +111,6 @@ void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* backg
   gl::drawGenerated(frame.device(), 3, 1);
 }
 
-ReentrantPipeline::ReentrantPipeline(gl::Device& device, const scene::Scene& scene,
-                                     std::span<const volumes::Medium> media,
-                                     const volumes::GridOptions& gridOptions)
-    : scene_(device, scene, media, gridOptions) {}
-
 Frame ReentrantPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                 const FrameOptions& options) {
   LayeredFrame frame(scene_, camera, width, height, quality);

@@ -29,17 +29,12 @@ namespace sfumato::pipelines {
 
 class ReentrantPipeline : public Pipeline {
  public:
-  ReentrantPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
-                    const volumes::GridOptions& gridOptions = {});
+  using Pipeline::Pipeline;
 
   // Costs, however many passes, a pixel's layer and ray (pipelines/layers_gpu.h), and 20 bytes of finished
   // light, 12 in table storage.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
-  const SceneGpu& scene() const override { return scene_; }
-
- private:
-  SceneGpu scene_;
 };
 
 // What the camera would see if there were nothing in front of what was drawn so far, without the smoke before

@@ -284,7 +284,7 @@ class Router {
 StencilRoutedPipeline::StencilRoutedPipeline(gl::Device& device, const scene::Scene& scene,
                                              std::span<const volumes::Medium> media,
                                              const volumes::GridOptions& gridOptions)
-    : scene_(device, scene, media, gridOptions), mostSamples_(routableSamples(device)) {}
+    : Pipeline(device, scene, media, gridOptions), mostSamples_(routableSamples(device)) {}
 
 void StencilRoutedPipeline::coverWholePixels() {
   mostSamples_ = std::max(1, scene_.device().limits().samples);

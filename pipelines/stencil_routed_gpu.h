@@ -30,14 +30,12 @@ class StencilRoutedPipeline : public Pipeline {
   // Memory where a band has no room, or its fullest pixel more fragments than 2,048 layers hold.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
-  const SceneGpu& scene() const override { return scene_; }
 
   // Only for tests, of scenes whose triangles all cover whole pixels: any driver routes those to its samples,
   // with multisampling on.
   void coverWholePixels();
 
  private:
-  SceneGpu scene_;
   int mostSamples_;
   bool multisample_ = false;
 };

@@ -9,46 +9,26 @@
 
 #include "image/metrics.h"
 #include "pipelines/pipeline_gpu.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
 #include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/pipeline_test.h"
 
 namespace sfumato::pipelines {
 namespace {
 
 using tests::KnownScene;
 
-Quality coarse(Passes passes = Passes::PerObject) {
-  Quality quality = fine;
-  quality.shadowResolution = 128;
-  quality.stepVoxels = 2;
+Quality coarseIn(Passes passes) {
+  Quality quality = coarse();
   quality.deferred.passes = passes;
   return quality;
 }
 
-class ReentrantGpu : public tests::GpuTest {
- protected:
-  image::Image draw(const std::string& name, const KnownScene& known, const Quality& quality,
-                    glm::ivec2 size = {72, 54}) {
-    return makePipeline(name, device(), known.scene, known.media)
-        ->render(known.scene.cameras[0], size.x, size.y, quality)
-        .radiance;
-  }
-
-  // The same surfaces, lights and steps as in the core pipeline; sums are rounded in another order.
-  void expectListsPicture(const KnownScene& known, const Quality& quality, glm::ivec2 size = {72, 54}) {
-    const image::Image reentrant = draw("reentrant", known, quality, size);
-    const image::Image lists = draw("lund", known, quality, size);
-    keep("reentrant_" + known.name, reentrant);
-    EXPECT_LT(image::compare(reentrant, lists).relativeRmse, 1e-5);
-    EXPECT_EQ(image::pixelsBeyond(reentrant, lists, 1e-4), 0u);
-  }
-};
+class ReentrantGpu : public PipelineTest {};
 
 class KnownScenesReentrant : public ReentrantGpu, public testing::WithParamInterface<std::string> {};
 
 TEST_P(KnownScenesReentrant, ObjectByObjectAreTheListsPicture) {
-  expectListsPicture(tests::named(tests::knownScenes(), GetParam()), coarse());
+  expectListsPicture("reentrant", tests::named(tests::knownScenes(), GetParam()), coarse());
 }
 
 INSTANTIATE_TEST_SUITE_P(KnownScenes, KnownScenesReentrant,
@@ -72,7 +52,7 @@ TEST_F(ReentrantGpu, OnePassShowsTheNearestSurface) {
   KnownScene known = twoColouredWall();
   tests::add(known.scene, tests::quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0}), tests::pane({0.5f, 0.25f, 0.75f}));
   tests::add(known.scene, tests::quad({-4, -4, 1}, {8, 0, 0}, {0, 8, 0}), tests::pane({0.75f, 0.5f, 0.25f}));
-  const image::Image nearest = draw("reentrant", known, coarse(Passes::One), {48, 36});
+  const image::Image nearest = draw("reentrant", known, coarseIn(Passes::One), {48, 36});
   expectColour(nearest, 5, 5, glm::vec3(1, 2, 4) * glm::vec3(0.75f, 0.5f, 0.25f));
   const image::Image both = draw("reentrant", known, coarse(), {48, 36});
   expectColour(both, 5, 5,
@@ -80,8 +60,8 @@ TEST_F(ReentrantGpu, OnePassShowsTheNearestSurface) {
 }
 
 TEST_F(ReentrantGpu, OnePassIsEnoughForOnePane) {
-  expectListsPicture(tests::paneBeforeSmoke(), coarse(Passes::One));
-  expectListsPicture(tests::smokeBeforePane(), coarse(Passes::One));
+  expectListsPicture("reentrant", tests::paneBeforeSmoke(), coarseIn(Passes::One));
+  expectListsPicture("reentrant", tests::smokeBeforePane(), coarseIn(Passes::One));
 }
 
 // A pane before the left half of a glowing wall, as one layer after the wall.
@@ -170,7 +150,7 @@ TEST_F(ReentrantGpu, WhatStandsBeforeAPaneIsNotSmearedIntoIt) {
 TEST_F(ReentrantGpu, ImagesOfAnySize) {
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(37, 23), glm::ivec2(4097, 3)}) {
     SCOPED_TRACE(size.x);
-    expectListsPicture(tests::crossedPanes(), coarse(), size);
+    expectListsPicture("reentrant", tests::crossedPanes(), coarse(), size);
   }
 }
 

@@ -4,45 +4,20 @@
 #include "image/metrics.h"
 #include "pipelines/pipeline_gpu.h"
 #include "pipelines/stencil_routed_gpu.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
 #include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/pipeline_test.h"
 
 namespace sfumato::pipelines {
 namespace {
 
 using tests::KnownScene;
 
-Quality coarse() {
-  Quality quality = fine;
-  quality.shadowResolution = 128;
-  quality.stepVoxels = 2;
-  return quality;
-}
-
-class StencilRoutedGpu : public tests::GpuTest {
- protected:
-  image::Image draw(const std::string& name, const KnownScene& known, const Quality& quality,
-                    glm::ivec2 size = {72, 54}) {
-    return makePipeline(name, device(), known.scene, known.media)
-        ->render(known.scene.cameras[0], size.x, size.y, quality)
-        .radiance;
-  }
-
-  // The same surfaces, lights and steps as in the core pipeline; sums are rounded in another order.
-  void expectListsPicture(const KnownScene& known, const Quality& quality, glm::ivec2 size = {72, 54}) {
-    const image::Image routed = draw("stencil-routed", known, quality, size);
-    const image::Image lists = draw("lund", known, quality, size);
-    keep("stencil_routed_" + known.name, routed);
-    EXPECT_LT(image::compare(routed, lists).relativeRmse, 1e-5);
-    EXPECT_EQ(image::pixelsBeyond(routed, lists, 1e-4), 0u);
-  }
-};
+class StencilRoutedGpu : public PipelineTest {};
 
 class KnownScenesRouted : public StencilRoutedGpu, public testing::WithParamInterface<std::string> {};
 
 TEST_P(KnownScenesRouted, AreTheListsPicture) {
-  expectListsPicture(tests::named(tests::knownScenes(), GetParam()), coarse());
+  expectListsPicture("stencil-routed", tests::named(tests::knownScenes(), GetParam()), coarse());
 }
 
 INSTANTIATE_TEST_SUITE_P(KnownScenes, KnownScenesRouted,
@@ -70,11 +45,11 @@ KnownScene manyVeils(int count) {
 
 TEST_F(StencilRoutedGpu, MorePassesKeepEveryVeil) {
   const KnownScene known = manyVeils(19);
-  expectListsPicture(known, coarse(), {48, 36});
+  expectListsPicture("stencil-routed", known, coarse(), {48, 36});
 }
 
 TEST_F(StencilRoutedGpu, ThreeHundredLayersAreMoreThanAStencilCanCount) {
-  expectListsPicture(manyVeils(300), coarse(), {16, 12});
+  expectListsPicture("stencil-routed", manyVeils(300), coarse(), {16, 12});
 }
 
 // `count` veils before a wall, each a triangle over the whole image, so that no driver has to make fragments
@@ -131,7 +106,7 @@ TEST_F(StencilRoutedGpu, ImagesOfAnySize) {
   const KnownScene known = tests::crossedPanes();
   for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(37, 23), glm::ivec2(4097, 3)}) {
     SCOPED_TRACE(size.x);
-    expectListsPicture(known, coarse(), size);
+    expectListsPicture("stencil-routed", known, coarse(), size);
   }
 }
 
