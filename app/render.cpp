@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
+#include <tuple>
 
 #include "app/aov_files.h"
 #include "app/deep_files.h"
@@ -242,17 +243,26 @@ std::filesystem::path placeOf(const std::string& file) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
 }
 
-// What only the core pipeline draws is not left out silently.
+// What a pipeline does not do is not left out silently.
 void checkPipeline(const RenderOptions& options) {
   pipelines::checkPipelineName(options.pipeline);
-  if (options.pipeline == "lund") return;
-  const std::pair<const char*, bool> flags[] = {{"--aov", !options.aovs.empty()},
-                                                {"--deep", !options.deep.empty()},
-                                                {"--deep-shadow", !options.deepShadows.empty()},
-                                                {"--half-res-smoke", options.halfResolutionSmoke},
-                                                {"--reference", options.reference}};
-  for (const auto& [flag, given] : flags)
-    if (given)
+  const bool core = options.pipeline == "lund";
+  const RenderOptions usual;
+  const std::tuple<const char*, bool, bool> flags[] = {
+      {"--aov", !options.aovs.empty(), core},
+      {"--deep", !options.deep.empty(), core},
+      {"--deep-shadow", !options.deepShadows.empty(), core},
+      {"--half-res-smoke", options.halfResolutionSmoke, core},
+      {"--reference", options.reference, core},
+      {"--shadows", options.shadows != usual.shadows, !core},
+      {"--interlace", options.interlace != usual.interlace, !core},
+      {"--storage", options.storage != usual.storage, !core},
+      {"--passes", options.passes != usual.passes, options.pipeline == "reentrant"},
+      {"--layers", options.layers != usual.layers, options.pipeline == "peeling"},
+      {"--refraction", options.refraction != usual.refraction,
+       !core && options.pipeline != "stencil-routed"}};
+  for (const auto& [flag, given, known] : flags)
+    if (given && !known)
       fail(ExitCode::Usage, "{}: --pipeline {} has no such thing: leave out one of them", flag,
            options.pipeline);
 }

@@ -57,6 +57,27 @@ TEST_P(EveryPipeline, HasTheSameAmbientLight) {
   EXPECT_GT(image::compare(draw(GetParam(), known, quality), lists).relativeRmse, 100 * rounding);
 }
 
+// Small lights whose meshes the camera sees from outside, from within, and cut by the near plane.
+TEST_P(EveryPipeline, MeetsLightsFromOutsideAndWithin) {
+  KnownScene known;
+  tests::add(known.scene, tests::quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), tests::lambert({0.8f, 0.6f, 0.4f}));
+  for (const double x : {-1.5, 0.0, 1.5}) {
+    scene::Light light = tests::pointLight({x, 0.4, 0}, {1, 2, 3});
+    light.range = 0.9;
+    known.scene.lights.push_back(light);
+    light = tests::spotLight({x, 1, 1}, {x + 0.5, 0, 1}, {3, 2, 1}, 0.2, 0.4);
+    light.range = 2;
+    known.scene.lights.push_back(light);
+  }
+  for (const glm::dvec3& eye : {glm::dvec3(0, 3, 5), glm::dvec3(0, 0.5, 0.5), glm::dvec3(1.5, 0.95, 1),
+                                glm::dvec3(0, 0.4, 0.9), glm::dvec3(0.1, 0.9, 1.4)}) {
+    known.scene.cameras = {tests::perspectiveCamera(eye, {0.3, 0, -0.2}, 0.9)};
+    expectListsPicture(GetParam(), known, coarse());
+    known.scene.cameras = {tests::orthographicCamera(eye, {0.3, 0, -0.2}, 1)};
+    expectListsPicture(GetParam(), known, coarse());
+  }
+}
+
 TEST_P(EveryPipeline, DrawsImagesOfAnySize) {
   const KnownScene known = tests::smokeAndGlass();
   Quality quality = coarse();
