@@ -6,6 +6,14 @@
 #include "base/error.h"
 
 namespace sfumato::app {
+namespace {
+
+[[noreturn]] void failWithoutGl(const char* command) {
+  base::fail(base::ExitCode::NoGl, "{}: this program was built without OpenGL: build it with SFUMATO_GL=ON",
+             command);
+}
+
+}  // namespace
 
 Drawn drawOnGpu(const RenderOptions&, const Shot&, Clock::time_point) {
   base::fail(base::ExitCode::NoGl,
@@ -23,27 +31,23 @@ PostProcess openPostProcess(const RenderOptions& options, const Shot& shot) {
 }
 
 int info(const InfoOptions&) {
-  base::fail(base::ExitCode::NoGl,
-             "info: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+  failWithoutGl("info");
 }
 
 int validate(const ValidateOptions&) {
-  base::fail(base::ExitCode::NoGl,
-             "validate: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+  failWithoutGl("validate");
 }
 
 int stress(const StressOptions&) {
-  base::fail(base::ExitCode::NoGl,
-             "stress: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+  failWithoutGl("stress");
 }
 
 int bench(const BenchOptions&) {
-  base::fail(base::ExitCode::NoGl,
-             "bench: this program was built without OpenGL: build it with SFUMATO_GL=ON");
+  failWithoutGl("bench");
 }
 
 int benchPapers(const PapersOptions&) {
-  return bench({});
+  failWithoutGl("bench");
 }
 
 }  // namespace sfumato::app
