@@ -8,8 +8,6 @@
 #include "app/report_file.h"
 #include "app/shot.h"
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "gl/device.h"
@@ -145,15 +143,6 @@ VariantRun runOf(gl::Device& device, const BenchOptions& options, const Shot& sh
   return run;
 }
 
-void tell(const BenchOptions& options, const Comparison& comparison) {
-  base::printResult(options.json ? base::jsonText(jsonOf(comparison)) : tableOf(comparison));
-  if (options.report.empty()) return;
-  image::Report report = reportOf(comparison);
-  writePictures(comparison, options.report, report);
-  base::writeFile(pageOf(options.report), image::reportPage(report));
-  base::note("wrote {}", pageOf(options.report).string());
-}
-
 }  // namespace
 
 int bench(const BenchOptions& options) {
@@ -183,7 +172,7 @@ int bench(const BenchOptions& options) {
     comparison.runs.push_back(runOf(device, options, shot, exact, variant));
     progress.advance();
   }
-  tell(options, comparison);
+  tell(comparison, options.json, options.report);
   const auto refused =
       std::ranges::find_if(comparison.runs, [](const auto& run) { return !run.refused.empty(); });
   return static_cast<int>(refused == comparison.runs.end() ? ExitCode::Done : refused->refusal);

@@ -193,7 +193,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
   add("--shadow-filter", options.shadowFilter,
       "Look shadows up so: nearest, bilinear, soft; else by --quality")
       ->type_name("NAME")
-      ->check(oneOf(pipelines::shadowFilterNames()));
+      ->check(oneOf(pipelines::shadowFilters().names));
   add("--shadow-memory", options.shadowMemory, "Most that they may take together, else what the device reads")
       ->type_name("BYTES|64K|256M|2G");
 }
@@ -290,7 +290,7 @@ void addAmbient(CLI::App& command, RenderOptions& options) {
           .add_option("--ssao", options.ambientOcclusion,
                       "Let surfaces shadow that light: off, full, half, quarter; else off")
           ->type_name("SIZE")
-          ->check(oneOf(pipelines::occlusionSizeNames()))
+          ->check(oneOf(pipelines::occlusionSizes().names))
           ->excludes("--reference")
           ->group("Quality");
   command

@@ -10,8 +10,6 @@
 #include "app/report_file.h"
 #include "app/shot.h"
 #include "base/error.h"
-#include "base/file.h"
-#include "base/json_text.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "gl/device.h"
@@ -102,15 +100,6 @@ void measure(gl::Device& device, const PapersOptions& options, PaperResult& resu
   }
 }
 
-void tell(const PapersOptions& options, const PaperResult& result) {
-  base::printResult(options.json ? base::jsonText(jsonOf(result)) : tableOf(result));
-  if (options.report.empty()) return;
-  image::Report report = reportOf(result);
-  writePictures(result, options.report, report);
-  base::writeFile(pageOf(options.report), image::reportPage(report));
-  base::note("wrote {}", pageOf(options.report).string());
-}
-
 }  // namespace
 
 int benchPapers(const PapersOptions& options) {
@@ -125,7 +114,7 @@ int benchPapers(const PapersOptions& options) {
                      .tables = plannedTables(options)};
   measure(device, options, result);
   result.seconds = secondsSince(start);
-  tell(options, result);
+  tell(result, options.json, options.report);
   return static_cast<int>(base::ExitCode::Done);
 }
 

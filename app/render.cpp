@@ -107,7 +107,7 @@ void lightTheDark(const RenderOptions& options, scene::Scene& scene) {
 }
 
 pipelines::AmbientOcclusionOptions chooseOcclusion(const RenderOptions& options, const scene::Scene& scene) {
-  const pipelines::OcclusionSize size = pipelines::occlusionSizeNamed(options.ambientOcclusion);
+  const pipelines::OcclusionSize size = pipelines::occlusionSizes().named(options.ambientOcclusion);
   if (size == pipelines::OcclusionSize::Off) return {};
   if (scene.ambient == glm::dvec3(0))
     base::warn("--ssao: there is no ambient light to take from: give some with --ambient");
@@ -171,7 +171,7 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   quality.shadowError = options.shadowError.value_or(quality.shadowError);
   quality.exactShadowError = options.shadowError.has_value();
   if (!options.shadowFilter.empty())
-    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilterNamed(options.shadowFilter);
+    quality.surfaceShadows = quality.smokeShadows = pipelines::shadowFilters().named(options.shadowFilter);
   if (!options.shadowMemory.empty())
     quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
   quality.scatteringOctaves = options.scatteringOctaves;
@@ -218,16 +218,18 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
     result.emplace_back("sfumato:samples_at_edges", fmt::format("{}", shot.quality.samples));
     result.emplace_back("sfumato:shadow_resolution", fmt::format("{}", shot.quality.shadowResolution));
     result.emplace_back("sfumato:shadow_error", fmt::format("{}", shot.quality.shadowError));
-    result.emplace_back("sfumato:shadow_filter", fmt::format("{} on surfaces, {} in smoke",
-                                                             pipelines::nameOf(shot.quality.surfaceShadows),
-                                                             pipelines::nameOf(shot.quality.smokeShadows)));
+    result.emplace_back("sfumato:shadow_filter",
+                        fmt::format("{} on surfaces, {} in smoke",
+                                    pipelines::shadowFilters().nameOf(shot.quality.surfaceShadows),
+                                    pipelines::shadowFilters().nameOf(shot.quality.smokeShadows)));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
   }
   if (shot.scene.ambient != glm::dvec3(0))
     result.emplace_back("sfumato:ambient", numbers(shot.scene.ambient));
   if (const auto& occlusion = shot.quality.ambientOcclusion; occlusion.size != pipelines::OcclusionSize::Off)
-    result.emplace_back("sfumato:ssao",
-                        fmt::format("{}, radius {} m", pipelines::nameOf(occlusion.size), occlusion.radius));
+    result.emplace_back(
+        "sfumato:ssao",
+        fmt::format("{}, radius {} m", pipelines::occlusionSizes().nameOf(occlusion.size), occlusion.radius));
   for (size_t i = 0; i < shot.media.size(); ++i)
     result.emplace_back(
         fmt::format("sfumato:volume{}", i),

@@ -22,7 +22,8 @@ struct Choice {
   Value named(const std::string& name) const {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      fail(ExitCode::Usage, "{} {}: unknown: choose {}", flag, name, fmt::join(names, ", "));
+      fail(ExitCode::Usage, "{} {}: unknown: choose {} or {}", flag, name,
+           fmt::join(names.begin(), names.end() - 1, ", "), names.back());
     return static_cast<Value>(found - names.begin());
   }
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "base/error.h"
 #include "scene/visible_hull.h"
 
 namespace sfumato::pipelines {
@@ -23,21 +22,9 @@ int blurReach(OcclusionSize size) {
   return size == OcclusionSize::Quarter ? 10 : 30;
 }
 
-const std::vector<std::string>& occlusionSizeNames() {
-  static const std::vector<std::string> names = {"off", "full", "half", "quarter"};
-  return names;
-}
-
-const std::string& nameOf(OcclusionSize size) {
-  return occlusionSizeNames()[static_cast<size_t>(size)];
-}
-
-OcclusionSize occlusionSizeNamed(const std::string& name) {
-  const auto& names = occlusionSizeNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    base::fail(base::ExitCode::Usage, "--ssao {}: unknown: choose off, full, half or quarter", name);
-  return static_cast<OcclusionSize>(found - names.begin());
+const base::Choice<OcclusionSize>& occlusionSizes() {
+  static const base::Choice<OcclusionSize> choice{"--ssao", {"off", "full", "half", "quarter"}};
+  return choice;
 }
 
 double usualOcclusionRadius(const scene::Scene& scene) {

@@ -1,9 +1,7 @@
 // How much of the ambient light gets to a pixel's surface: what can be asked for, without OpenGL.
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "base/choice.h"
 #include "scene/scene.h"
 
 namespace sfumato::pipelines {
@@ -21,10 +19,7 @@ int pixelsAside(OcclusionSize size);
 // Results to both sides that the blur reaches: 21 in all for Quarter, 61 for others (Ferko 2012, section 7).
 int blurReach(OcclusionSize size);
 
-const std::vector<std::string>& occlusionSizeNames();  // "off", "full", "half", "quarter"
-const std::string& nameOf(OcclusionSize size);
-// Throws Usage, naming --ssao, for another name.
-OcclusionSize occlusionSizeNamed(const std::string& name);
+const base::Choice<OcclusionSize>& occlusionSizes();  // "off", "full", "half", "quarter"
 
 // A radius that suits a scene: a tenth of the diagonal of its middle-sized instance, so that a wide floor
 // counts no more than what stands on it; 1 where there is none.

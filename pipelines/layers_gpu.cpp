@@ -1,7 +1,6 @@
 #include "pipelines/layers_gpu.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "gl/program.h"
@@ -26,26 +25,11 @@ constexpr glm::vec4 nothingSeen(NOTHING_SEEN);
 // How much larger than what a light reaches its mesh may be, near plane and all.
 constexpr double meshExcess = 1.3;
 
-float depthScale(const std::vector<std::vector<glm::dvec3>>& seen, const scene::Camera& camera) {
-  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
-  double farthest = 1e-30;
-  for (const std::vector<glm::dvec3>& part : seen)
-    for (const glm::dvec3& p : part) farthest = std::max(farthest, -(viewFromWorld * glm::dvec4(p, 1)).z);
-  return static_cast<float>(std::exp2(-std::ceil(std::log2(1.01 * farthest))));
-}
-
 // Whether the camera may stand in the mesh of what a light reaches; its far sides show it then.
 bool mayBeInside(const lights::Light& light, double reach, const scene::Camera& camera) {
   const glm::dvec3 eye = camera.worldFromView[3];
   if (camera.orthographic) return true;
   return glm::distance(eye, light.position) < meshExcess * reach + 2 * camera.nearDistance;
-}
-
-template <typename Maps>
-std::vector<lights::ShadowFaces> facesOf(const Maps& maps) {
-  std::vector<lights::ShadowFaces> faces;
-  for (const auto& map : maps.lights()) faces.push_back({map.firstFace, map.faces});
-  return faces;
 }
 
 deepshadow::InterlacedKind interlacedKind(ShadowKind kind, Storage storage) {
@@ -71,7 +55,6 @@ LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, i
       shadowKind_(quality.deferred.shadows.value_or(usual.kind)),
       viewBlock_(scene.device(), "camera view", sizeof(shared::ViewParams)),
       passBlock_(scene.device(), "layer pass", sizeof(shared::ResolveParams)) {
-  view_.params.depthRange.z = depthScale(view_.seen, camera);
   viewBlock_.writeValue(view_.params);
   const auto faces = buildShadows(usual.lightsOnce);
   occlusion_ = scene.drawOcclusion(view_, quality.ambientOcclusion);
@@ -146,11 +129,8 @@ const lights::Light& LayeredFrame::light(size_t number) const {
 }
 
 shared::ResolveParams LayeredFrame::params() const {
-  shared::ResolveParams params{};
-  params.march = {quality_.stepVoxels, quality_.throughputCutoff, options().refraction * view_.height, 0};
-  params.options = {0, tapsOf(quality_.surfaceShadows) + 8 * tapsOf(quality_.smokeShadows),
-                    lightLists_->directionalLights(), 0};
-  params.ambient = glm::vec4(scene_.scene().ambient, quality_.ambientOcclusion.radius);
+  shared::ResolveParams params = scene_.lightingParams(quality_, lightLists_->directionalLights());
+  params.march.z = static_cast<float>(options().refraction * view_.height);
   return params;
 }
 
@@ -291,12 +271,7 @@ void LayeredFrame::addLights(const SurfaceLayer& layer, const gl::Framebuffer& t
 Walk LayeredFrame::startWalk() const {
   std::vector<shared::RayState> states(
       pixels(), {.depth = view_.params.depthRange.x, .throughputR = 1, .throughputG = 1, .throughputB = 1});
-  Walk walk{gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0, {}};
-  if (options().refraction > 0) {
-    walk.bends = gl::Buffer(device(), "bends", pixels() * sizeof(glm::uvec2));
-    walk.bends.clear();
-  }
-  return walk;
+  return {gl::Buffer(device(), "rays", std::span<const shared::RayState>(states)), 0, {}};
 }
 
 size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light, bool last, Walk& walk) {
@@ -305,6 +280,10 @@ size_t LayeredFrame::walkTo(const SurfaceLayer& layer, const gl::Texture& light,
   if (last) defines.emplace_back("LAST", "1");
   const bool bent = options().refraction > 0;
   if (bent) defines.emplace_back("BENT", "1");
+  if (bent && walk.bends.bytes() == 0) {
+    walk.bends = gl::Buffer(device(), "bends", pixels() * sizeof(glm::uvec2));
+    walk.bends.clear();
+  }
   shared::ResolveParams params = this->params();
   params.options.x = ++walk.layers;
   return dispatchWalk(

@@ -52,7 +52,7 @@ struct LayerDraw {
 struct Walk {
   gl::Buffer rays;   // shared::RayState
   int layers = 0;    // that they were taken to
-  gl::Buffer bends;  // of what is seen through the first surface, where there is refraction
+  gl::Buffer bends;  // of what is seen through the first surface, where walkTo() refracts
 };
 
 // Which shadows a pipeline has by itself. Where it adds up each light once, interlaced maps need room for
@@ -97,7 +97,6 @@ class LayeredFrame {
   const FrameView& view() const { return view_; }
   const Quality& quality() const { return quality_; }
   const DeferredOptions& options() const { return quality_.deferred; }
-  ShadowKind shadowKind() const { return shadowKind_; }
   size_t pixels() const;
   gl::ShaderDefines storageDefines() const;
   gl::ShaderDefines interlaceDefines() const;
@@ -108,14 +107,11 @@ class LayeredFrame {
   gl::ShaderDefines lightingDefines() const;
   // Lights in the order of the light lists.
   size_t lightCount() const { return lightLists_->order().size(); }
-  const lights::Light& light(size_t number) const;
   shared::ResolveParams params() const;
   // Before a light is added up: builds its shadow map, where lights have one after the other.
   void takeTurn(size_t number);
   // View, lights, shadows and smoke, and a pass's parameters.
   void bind(const shared::ResolveParams& params);
-  // Draws what a light reaches, with a state whose program starts with shaders/pipelines/light_volume.vert.
-  void drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params);
 
   FrameStatistics statistics;
 
@@ -123,6 +119,9 @@ class LayeredFrame {
   std::vector<lights::ShadowFaces> buildShadows(bool lightsOnce);
   // Of lights of the scene.
   void buildInterlaced(const ShadowInputs& inputs, size_t first, size_t count);
+  const lights::Light& light(size_t number) const;
+  // Draws what a light reaches, with a state whose program starts with shaders/pipelines/light_volume.vert.
+  void drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params);
 
   const SceneGpu& scene_;
   FrameView view_;

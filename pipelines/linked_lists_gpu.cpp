@@ -25,12 +25,6 @@ namespace {
 // A dispatch does RESOLVE_WORK_LIMIT of a pixel's work; no sane frame needs this many.
 constexpr int maxResolveDispatches = 10000;
 
-std::vector<lights::ShadowFaces> shadowFacesOf(const deepshadow::Maps& maps) {
-  std::vector<lights::ShadowFaces> faces;
-  for (const deepshadow::LightMap& map : maps.lights()) faces.push_back({map.firstFace, map.faces});
-  return faces;
-}
-
 gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, const Quality& quality) {
   return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(quality));
 }
@@ -74,12 +68,9 @@ void bindRayInputs(const Inputs& inputs) {
 }
 
 shared::ResolveParams resolveParams(const ResolveInputs& inputs) {
-  shared::ResolveParams params{};
-  params.march = {static_cast<float>(inputs.quality.stepVoxels),
-                  static_cast<float>(inputs.quality.throughputCutoff), 0.f, 0.f};
-  params.options = {1, tapsOf(inputs.quality.surfaceShadows) + 8 * tapsOf(inputs.quality.smokeShadows),
-                    inputs.lights.directionalLights(), 0};
-  params.ambient = glm::vec4(inputs.scene.scene().ambient, inputs.quality.ambientOcclusion.radius);
+  shared::ResolveParams params =
+      inputs.scene.lightingParams(inputs.quality, inputs.lights.directionalLights());
+  params.options.x = 1;
   setSamples(params, inputs.gbuffer);
   return params;
 }
@@ -288,7 +279,7 @@ class TilePainter {
   TilePainter(gl::Device& device, const TileInputs& inputs, size_t windowPixels, Frame& frame)
       : device_(device),
         inputs_(inputs),
-        faces_(shadowFacesOf(inputs.shadows)),
+        faces_(facesOf(inputs.shadows)),
         hasListedLights_(std::any_of(
             inputs.scene.lights().begin(), inputs.scene.lights().end(),
             [](const lights::Light& light) { return light.type != lights::LightType::Directional; })),

@@ -1,7 +1,5 @@
 #include "pipelines/quality.h"
 
-#include <algorithm>
-
 #include "base/error.h"
 
 namespace sfumato::pipelines {
@@ -18,21 +16,9 @@ int tapsOf(ShadowFilter filter) {
   return 2;
 }
 
-const std::vector<std::string>& shadowFilterNames() {
-  static const std::vector<std::string> names = {"nearest", "bilinear", "soft"};
-  return names;
-}
-
-const std::string& nameOf(ShadowFilter filter) {
-  return shadowFilterNames()[static_cast<size_t>(filter)];
-}
-
-ShadowFilter shadowFilterNamed(const std::string& name) {
-  const auto& names = shadowFilterNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    base::fail(base::ExitCode::Usage, "--shadow-filter {}: unknown: choose nearest, bilinear or soft", name);
-  return static_cast<ShadowFilter>(found - names.begin());
+const base::Choice<ShadowFilter>& shadowFilters() {
+  static const base::Choice<ShadowFilter> choice{"--shadow-filter", {"nearest", "bilinear", "soft"}};
+  return choice;
 }
 
 const std::vector<std::string>& qualityNames() {

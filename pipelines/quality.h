@@ -48,10 +48,7 @@ struct Quality {
 
 // Texels a side.
 int tapsOf(ShadowFilter filter);
-const std::vector<std::string>& shadowFilterNames();  // "nearest", "bilinear", "soft"
-const std::string& nameOf(ShadowFilter filter);
-// Throws Usage, naming --shadow-filter, for another name.
-ShadowFilter shadowFilterNamed(const std::string& name);
+const base::Choice<ShadowFilter>& shadowFilters();  // "nearest", "bilinear", "soft"
 
 // "draft", "medium", "high" or "reference".
 const std::vector<std::string>& qualityNames();

@@ -1,6 +1,7 @@
 #include "pipelines/scene_gpu.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/shadow_resolution.h"
@@ -26,6 +27,9 @@ shared::ViewParams tightView(const scene::Camera& camera, int width, int height,
       farthest = std::max(farthest, depth);
     }
   }
+  constexpr double nothing = 1e-30;  // in place of the depth of surfaces where none is seen
+  view.depthRange.z =
+      static_cast<float>(std::exp2(-std::ceil(std::log2(1.01 * std::max(farthest, nothing)))));
   if (nearest > farthest) return view;
   constexpr double slack = 1e-3;
   constexpr double leastRatio = 1e-6;  // of nearest to farthest, for floats to tell anything apart
@@ -62,6 +66,15 @@ gl::ShaderDefines SceneGpu::lightingDefines(const Quality& quality) const {
   if (quality.scatteringOctaves > 0)
     defines.emplace_back("SCATTER_OCTAVES", std::to_string(quality.scatteringOctaves));
   return gl::joined(defines, volumes_.defines());
+}
+
+shared::ResolveParams SceneGpu::lightingParams(const Quality& quality, int directionalLights) const {
+  shared::ResolveParams params{};
+  params.march = {quality.stepVoxels, quality.throughputCutoff, 0, 0};
+  params.options = {0, tapsOf(quality.surfaceShadows) + 8 * tapsOf(quality.smokeShadows), directionalLights,
+                    0};
+  params.ambient = glm::vec4(scene_.ambient, quality.ambientOcclusion.radius);
+  return params;
 }
 
 std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view,

@@ -9,11 +9,13 @@
 
 #include "deepshadow/maps_gpu.h"
 #include "gl/device.h"
+#include "lights/light_lists_gpu.h"
 #include "pipelines/ambient_occlusion_gpu.h"
 #include "pipelines/frame_gpu.h"
 #include "pipelines/geometry_gpu.h"
 #include "pipelines/quality.h"
 #include "scene/scene.h"
+#include "shaders/shared/resolve.h"
 #include "shaders/shared/view.h"
 #include "volumes/grid.h"
 #include "volumes/volumes_gpu.h"
@@ -26,7 +28,7 @@ struct FrameView {
   int height = 0;
   std::vector<std::vector<glm::dvec3>> seen;  // of each instance: scene/visible_hull.h
   // Of the whole image, with clip planes close around the surfaces that are seen: it shows the same, and the
-  // depth test tells more depths apart.
+  // depth test tells more depths apart. With what scales their depths below 1.
   shared::ViewParams params{};
 };
 
@@ -54,6 +56,8 @@ class SceneGpu {
 
   // Of programs that light surfaces or march through smoke.
   gl::ShaderDefines lightingDefines(const Quality& quality) const;
+  // What they are told; rays and samples are the pass's own.
+  shared::ResolveParams lightingParams(const Quality& quality, int directionalLights) const;
   // Of the whole image at once, from a G-buffer of its own; nothing where none is asked for, or where there
   // is no ambient light to take from.
   std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view,
@@ -69,6 +73,14 @@ class SceneGpu {
   GeometryGpu geometry_;
   volumes::VolumesGpu volumes_;
 };
+
+// Where the lights find their shadows, of deep or of interlaced maps.
+template <typename Maps>
+std::vector<lights::ShadowFaces> facesOf(const Maps& maps) {
+  std::vector<lights::ShadowFaces> faces;
+  for (const auto& map : maps.lights()) faces.push_back({map.firstFace, map.faces});
+  return faces;
+}
 
 ShadowFigures figuresOf(const deepshadow::Maps& shadows);
 

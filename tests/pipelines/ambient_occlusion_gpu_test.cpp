@@ -189,7 +189,8 @@ TEST_F(AmbientOcclusionGpu, OfACornerIsThatOfItsDefinition) {
         }
       }
       fmt::print("{}, {}: off by {:.4f} at most, darkest {:.3f}\n",
-                 orthographic ? "orthographic" : "perspective", nameOf(size), worst, darkest);
+                 orthographic ? "orthographic" : "perspective", occlusionSizes().nameOf(size), worst,
+                 darkest);
       EXPECT_LT(worst, 0.06);
       EXPECT_LT(darkest, 0.8);
     }
@@ -240,7 +241,8 @@ TEST_F(AmbientOcclusionGpu, IsNotBlurredAcrossDepths) {
   for (const OcclusionSize size : sizes) {
     const image::Image image = draw(scene, {size, 0.4}, 4);
     for (int y = 0; y < height; ++y) {
-      for (int x = width / 2; x < width; ++x) ASSERT_NEAR(*image.pixel(x, y), 1, 1e-5) << nameOf(size);
+      for (int x = width / 2; x < width; ++x)
+        ASSERT_NEAR(*image.pixel(x, y), 1, 1e-5) << occlusionSizes().nameOf(size);
       ASSERT_LT(*image.pixel(width / 2 - 15, y), 0.9f);  // the groove itself
     }
   }
@@ -258,7 +260,7 @@ TEST_F(AmbientOcclusionGpu, IsSmooth) {
         least = std::min<double>(least, *image.pixel(x, y));
         most = std::max<double>(most, *image.pixel(x, y));
       }
-      EXPECT_LT(most - least, 0.12) << nameOf(size) << " " << y;
+      EXPECT_LT(most - least, 0.12) << occlusionSizes().nameOf(size) << " " << y;
     }
   }
 }

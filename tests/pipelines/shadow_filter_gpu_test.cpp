@@ -59,7 +59,7 @@ class ShadowFilterGpu : public tests::GpuTest {
         quality.shadowResolution = resolution;
         quality.surfaceShadows = filter;
         const image::Image image = pipeline.render(known.scene.cameras[0], width, height, quality).radiance;
-        SCOPED_TRACE(fmt::format("{}, {}, {} texels", what, nameOf(filter), resolution));
+        SCOPED_TRACE(fmt::format("{}, {}, {} texels", what, shadowFilters().nameOf(filter), resolution));
         check(image, unshadowed, resolution);
       }
     }

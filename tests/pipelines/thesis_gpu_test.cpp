@@ -113,7 +113,7 @@ TEST_F(ThesisGpu, NoLightLeaksIntoAClosedBox) {
         const image::Image image = draw(known, quality).radiance;
         EXPECT_LT(*std::max_element(image.values.begin(), image.values.end()), 1e-3f)
             << "light " << static_cast<int>(light.type) << ", " << resolution << " texels, "
-            << nameOf(filter);
+            << shadowFilters().nameOf(filter);
       }
     }
   }
