@@ -183,7 +183,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
                 "March smoke once for 2 x 2 pixels that see as far: faster, less sharp")
       ->group("Quality");
   add("--shadow-res", options.shadowResolution,
-      "Texels a side of every deep shadow map: 32 to 16384, else what suits")
+      "Texels a side of every shadow map: 32 to 16384, else what suits")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
   add("--shadow-error", options.shadowError,
@@ -194,7 +194,8 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Look shadows up so: nearest, bilinear, soft; else by --quality")
       ->type_name("NAME")
       ->check(oneOf(pipelines::shadowFilters().names));
-  add("--shadow-memory", options.shadowMemory, "Most that they may take together, else what the device reads")
+  add("--shadow-memory", options.shadowMemory,
+      "Most that shadow maps may take together, else what the device holds")
       ->type_name("BYTES|64K|256M|2G");
 }
 

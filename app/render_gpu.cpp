@@ -49,17 +49,18 @@ void warnOfProblems(gl::Device& device, const pipelines::FrameStatistics& statis
         statistics.cutWalks);
 }
 
-void noteShadowMaps(const pipelines::FrameStatistics& statistics) {
-  const pipelines::ShadowFigures& maps = statistics.shadowMaps;
+void noteShadowMaps(const pipelines::ShadowFigures& maps) {
   std::map<int, int, std::greater<>> lights;  // by resolution
-  for (const deepshadow::LightMap& map : statistics.shadows)
-    if (map.faces > 0) ++lights[map.resolution];
+  for (const int resolution : maps.resolutions)
+    if (resolution > 0) ++lights[resolution];
   std::string resolutions;
   for (const auto& [resolution, count] : lights)
     resolutions += fmt::format("{}{} of {}", resolutions.empty() ? "" : ", ", count, resolution);
-  base::note("shadow maps: {} texels a side, error bound {:.5f}: {} of {}{}",
-             resolutions.empty() ? "none" : resolutions, maps.error, base::sizeText(maps.bytes),
-             base::sizeText(maps.budgetBytes), maps.lowered ? ": coarser, to fit" : "");
+  if (resolutions.empty()) return base::note("shadow maps: none");
+  base::note("shadow maps: {} texels a side{}: {} of {}{}", resolutions,
+             maps.error > 0 ? fmt::format(", error bound {:.5f}", maps.error) : "",
+             base::sizeText(maps.bytes), base::sizeText(maps.budgetBytes),
+             maps.lowered ? ": coarser, to fit" : "");
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   postProcess(device, options, shot, drawn);
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
-  noteShadowMaps(frame.statistics);
+  noteShadowMaps(frame.statistics.shadowMaps);
   warnOfProblems(device, frame.statistics);
   if (options.statistics.empty()) return drawn;
   const pipelines::ListPrediction fromBounds = pipelines::predictLists(

@@ -82,7 +82,8 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
     result["lists"]["shadows"].push_back(light);
   }
   const pipelines::ShadowFigures& maps = statistics.shadowMaps;
-  result["shadow_maps"] = {{"error", maps.error},
+  result["shadow_maps"] = {{"resolutions", maps.resolutions},
+                           {"error", maps.error},
                            {"lowered", maps.lowered},
                            {"bytes", maps.bytes},
                            {"predicted_bytes", maps.predictedBytes},

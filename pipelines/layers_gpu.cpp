@@ -74,28 +74,39 @@ std::vector<lights::ShadowFaces> LayeredFrame::buildShadows(bool lightsOnce) {
   }
   interlaced_.emplace();
   ShadowInputs inputs = scene_.shadowInputs(view_, quality_);
-  if (lightsOnce && scene_.volumes().empty()) {
+  const bool inTurns = lightsOnce && scene_.volumes().empty();
+  const size_t count = none.size();
+  auto plan = deepshadow::planOf(
+      device(), interlacedInputs(inputs, 0, count), inputs.budget,
+      inTurns ? deepshadow::InterlacedStand::InTurns : deepshadow::InterlacedStand::Together);
+  inputs.resolutions = plan.resolutions;
+  statistics.shadowMaps = {
+      .resolutions = std::move(plan.resolutions), .lowered = plan.lowered, .budgetBytes = plan.budgetBytes};
+  if (inTurns) {
     turns_ = std::move(inputs);
-    for (size_t i = 0; i < none.size(); ++i)
+    for (size_t i = 0; i < count; ++i)
       if (scene_.lights()[i].castsShadow && turns_->resolutions[i] > 0)
         none[i] = {0, scene::faceCount(scene_.lights()[i])};
     return none;
   }
-  buildInterlaced(inputs, 0, scene_.lights().size());
+  interlaced_->build(device(), interlacedInputs(inputs, 0, count));
   return facesOf(*interlaced_);
 }
 
-void LayeredFrame::buildInterlaced(const ShadowInputs& inputs, size_t first, size_t count) {
-  interlaced_->build(device(), {.lights = std::span(scene_.lights()).subspan(first, count),
-                                .resolutions = std::span(inputs.resolutions).subspan(first, count),
-                                .casters = inputs.casters,
-                                .receivers = inputs.receivers,
-                                .castingPoints = inputs.castingPoints,
-                                .kind = interlacedKind(shadowKind_, options().storage)});
+deepshadow::InterlacedInputs LayeredFrame::interlacedInputs(const ShadowInputs& inputs, size_t first,
+                                                            size_t count) const {
+  return {.lights = std::span(scene_.lights()).subspan(first, count),
+          .resolutions = std::span(inputs.resolutions).subspan(first, count),
+          .casters = inputs.casters,
+          .receivers = inputs.receivers,
+          .castingPoints = inputs.castingPoints,
+          .kind = interlacedKind(shadowKind_, options().storage)};
 }
 
 void LayeredFrame::takeTurn(size_t number) {
-  if (turns_) buildInterlaced(*turns_, static_cast<size_t>(lightLists_->order()[number]), 1);
+  if (turns_)
+    interlaced_->build(device(),
+                       interlacedInputs(*turns_, static_cast<size_t>(lightLists_->order()[number]), 1));
 }
 
 size_t LayeredFrame::pixels() const {

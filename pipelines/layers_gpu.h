@@ -118,7 +118,7 @@ class LayeredFrame {
  private:
   std::vector<lights::ShadowFaces> buildShadows(bool lightsOnce);
   // Of lights of the scene.
-  void buildInterlaced(const ShadowInputs& inputs, size_t first, size_t count);
+  deepshadow::InterlacedInputs interlacedInputs(const ShadowInputs& inputs, size_t first, size_t count) const;
   const lights::Light& light(size_t number) const;
   // Draws what a light reaches, with a state whose program starts with shaders/pipelines/light_volume.vert.
   void drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params);

@@ -19,14 +19,15 @@ enum class ShadowFilter { Nearest, Bilinear, Soft };
 
 struct Quality {
   int samples = 4;                 // of a pixel where edges cross it: 1, or 4
-  int shadowResolution = 1024;     // texels a side of a deep shadow map, at most
+  int shadowResolution = 1024;     // texels a side of a shadow map, at most
   double stepVoxels = 1.0;         // of every march through smoke, in voxels of the finest volume
   double shadowError = 1.0 / 512;  // bound of the error of a deep shadow map's transmittance; 0: none
   // Otherwise maps of lights that cover little of the image are smaller (shadow_resolution.h), and all are
   // where they would not fit; the same of the error.
   bool exactShadowResolution = true;
   bool exactShadowError = true;
-  size_t shadowMemory = 0;           // bytes of all maps together; 0: what the device reads
+  size_t shadowMemory = 0;           // bytes of all maps that stand at once, deep or interlaced; 0: what the
+                                     // device holds
   bool halfResolutionSmoke = false;  // marched once for 2 x 2 pixels where these see about as far
   bool depthsFirst = false;          // opaque surfaces are drawn twice, depths alone first
   double throughputCutoff = 1e-3;    // a ray ends where less than this of what is behind would be seen

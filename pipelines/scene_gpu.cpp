@@ -102,7 +102,10 @@ ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& qualit
   if (geometry_.has(Layer::ShadowLists))
     casters.listed = [this] { geometry_.draw(Layer::ShadowLists, false); };
   return {casters, all.points, scene::boundingPoints(scene_, mediaBoxes_),
-          shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality)};
+          shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality),
+          deepshadow::MapBudget{.bytes = quality.shadowMemory,
+                                .lowerResolution = !quality.exactShadowResolution,
+                                .loosenError = !quality.exactShadowError}};
 }
 
 deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& quality,
@@ -115,9 +118,7 @@ deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& qu
                                     .receivers = inputs.receivers,
                                     .castingPoints = inputs.castingPoints,
                                     .plan = {inputs.resolutions, quality.shadowError},
-                                    .budget = {.bytes = quality.shadowMemory,
-                                               .lowerResolution = !quality.exactShadowResolution,
-                                               .loosenError = !quality.exactShadowError},
+                                    .budget = inputs.budget,
                                     .stepVoxels = quality.stepVoxels,
                                     .lists = quality.lists,
                                     .linkedSmokeNodes = quality.walkedSmokeNodes,
@@ -125,7 +126,8 @@ deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& qu
 }
 
 ShadowFigures figuresOf(const deepshadow::Maps& shadows) {
-  return {.error = shadows.plan().error,
+  return {.resolutions = shadows.plan().resolutions,
+          .error = shadows.plan().error,
           .lowered = shadows.lowered(),
           .bytes = shadows.bytes(),
           .predictedBytes = shadows.predictedBytes(),

@@ -40,6 +40,7 @@ struct ShadowInputs {
   std::vector<glm::dvec3> receivers;      // their hull holds what is seen
   std::vector<glm::dvec3> castingPoints;  // and theirs what casts shadows
   std::vector<int> resolutions;           // of each light: shadow_resolution.h
+  deepshadow::MapBudget budget;
 };
 
 class SceneGpu {

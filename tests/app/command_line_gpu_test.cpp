@@ -513,7 +513,10 @@ TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
   EXPECT_EQ(figures["lists"]["shadows"][0]["resolution"], 32);
   expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "100K", "--shadow-res",
                          "512", "--shadow-error", "0"})),
-              5, "deep shadow maps: take 46 times the 0.1 MiB that they may");
+              5, "deep shadow maps: take 46 times the 100.0 KiB that they may");
+  expectError(
+      run(draft({"scene.gltf", "-o", "out.png", "-q", "--pipeline", "interlaced", "--shadow-memory", "16K"})),
+      5, "interlaced shadow maps: take 1.1 times the 16.0 KiB that they may");
   expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "much"})), 2,
               "--shadow-memory");
 }
