@@ -32,6 +32,14 @@ bool mayBeInside(const lights::Light& light, double reach, const scene::Camera& 
   return glm::distance(eye, light.position) < meshExcess * reach + 2 * camera.nearDistance;
 }
 
+// Of two rectangles; nothing where they have none.
+std::optional<glm::ivec4> commonPart(const glm::ivec4& a, const glm::ivec4& b) {
+  const glm::ivec2 low = glm::max(glm::ivec2(a), glm::ivec2(b));
+  const glm::ivec2 high = glm::min(glm::ivec2(a.x + a.z, a.y + a.w), glm::ivec2(b.x + b.z, b.y + b.w));
+  if (glm::any(glm::greaterThanEqual(low, high))) return {};
+  return glm::ivec4(low, high - low);
+}
+
 deepshadow::InterlacedKind interlacedKind(ShadowKind kind, Storage storage) {
   if (kind == ShadowKind::Opaque) return deepshadow::InterlacedKind::Opaque;
   return storage == Storage::Table ? deepshadow::InterlacedKind::Thesis
@@ -180,16 +188,17 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
                                              &target.depth};
   if (target.id) colours.push_back(&*target.id);
   const gl::Framebuffer framebuffer(colours, &target.depthTest);
+  const auto& area = what.mask.area;
   for (int i = 0; i < 3; ++i) {
     if (options().storage == Storage::Table)
-      framebuffer.clearColour(i, glm::vec4(0.f));
+      framebuffer.clearColour(i, glm::vec4(0.f), area);
     else
-      framebuffer.clearColour(i, glm::uvec4(0));
+      framebuffer.clearColour(i, glm::uvec4(0), area);
   }
-  framebuffer.clearColour(3, nothingSeen);
-  if (target.id) framebuffer.clearColour(4, glm::uvec4(0));
-  framebuffer.clearDepth(1.f);
-  framebuffer.clearStencil(0);
+  framebuffer.clearColour(3, nothingSeen, area);
+  if (target.id) framebuffer.clearColour(4, glm::uvec4(0), area);
+  framebuffer.clearDepth(1.f, area);
+  framebuffer.clearStencil(0, area);
 
   const auto drawSurfaces = [&](Layer surfaces, gl::ShaderDefines defines) {
     statistics.geometryPasses += surfaces == Layer::Opaque && quality_.depthsFirst ? 2 : 1;
@@ -210,8 +219,9 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
         .program = &device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
         .target = &framebuffer,
         .viewport = {0, 0, view_.width, view_.height},
+        .scissor = area,
         .depthTest = true,
-        .stencil = what.stencil};
+        .stencil = what.mask.stencil};
     if (surfaces == Layer::Opaque) {
       drawOpaque(device(), scene_.geometry(), state, target.depthTest, quality_.depthsFirst);
       return;
@@ -229,7 +239,8 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
 
 void LayeredFrame::drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params) {
   const lights::Light& light = this->light(number);
-  const auto scissor = lights::lightScissor(light, view_.params);
+  auto scissor = lights::lightScissor(light, view_.params);
+  if (scissor && state.scissor) scissor = commonPart(*scissor, *state.scissor);
   if (!scissor) return;
   state.scissor = scissor;
   shared::ResolveParams ofLight = params;
@@ -263,15 +274,16 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
 }
 
 void LayeredFrame::addLights(const SurfaceLayer& layer, const gl::Framebuffer& target, bool finished,
-                             const std::optional<gl::StencilTest>& stencil) {
+                             const Mask& mask) {
   gl::ShaderDefines defines = lightingDefines();
   if (finished) defines.emplace_back("FINISHED", "1");
   const gl::DrawState state{
       .program = &device().program({"pipelines/light_volume.vert", "pipelines/light_volume.frag"}, defines),
       .target = &target,
       .viewport = {0, 0, view_.width, view_.height},
+      .scissor = mask.area,
       .blend = gl::Blend::Add,
-      .stencil = stencil};
+      .stencil = mask.stencil};
   for (size_t i = 0; i < lightCount(); ++i) {
     takeTurn(i);
     layer.bind();

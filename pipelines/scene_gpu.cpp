@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipelines/gbuffer_gpu.h"
+#include "pipelines/image_bounds.h"
 #include "pipelines/shadow_resolution.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
@@ -47,6 +48,26 @@ FrameView viewOf(const scene::Scene& scene, const scene::Camera& camera, int wid
   view.seen = scene::visibleParts(scene, camera, static_cast<double>(width) / height);
   view.params = tightView(camera, width, height, view.seen);
   return view;
+}
+
+glm::ivec4 FrameView::areaOf(size_t instance) const {
+  const std::vector<glm::dvec3>& points = seen[instance];
+  const ImageBounds bounds = boundsOnImage(points, camera);
+  // What floats of vertices and matrices may be off, in pixels at the nearest point; and those that it
+  // touches.
+  constexpr double rounding = 1e-6;
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  double margin = 1;
+  for (const glm::dvec3& p : points) {
+    const double off = rounding * (glm::length(p) + glm::length(viewFromWorld[3]));
+    margin = std::max(margin,
+                      1 + off * height * imageHeightsPerMetre(-(viewFromWorld * glm::dvec4(p, 1)).z, camera));
+  }
+  const glm::dvec2 size(width, height);
+  const auto pixels = [&](const glm::dvec2& place) { return place * size.y + size / 2.0; };
+  const glm::ivec2 low(glm::clamp(glm::floor(pixels(bounds.low) - margin), glm::dvec2(0), size - 1.0));
+  const glm::ivec2 high(glm::clamp(glm::ceil(pixels(bounds.high) + margin), glm::dvec2(low + 1), size));
+  return {low, high - low};
 }
 
 SceneGpu::SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,

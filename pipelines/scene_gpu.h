@@ -30,6 +30,10 @@ struct FrameView {
   // Of the whole image, with clip planes close around the surfaces that are seen: it shows the same, and the
   // depth test tells more depths apart. With what scales their depths below 1.
   shared::ViewParams params{};
+
+  // The pixels in which an instance may be seen, of which something is: x, y from the bottom, width, height.
+  // Never too small.
+  glm::ivec4 areaOf(size_t instance) const;
 };
 
 FrameView viewOf(const scene::Scene& scene, const scene::Camera& camera, int width, int height);

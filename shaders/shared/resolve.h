@@ -27,6 +27,7 @@ struct ResolveParams {
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
   vec4 samples23;
   vec4 ambient;    // rgb: radiance from all around; w: radius of ambient occlusion, m
+  ivec4 area;      // x, y, width, height: of layers: pixels that have the rays
 };
 
 struct ResolveCounters {

@@ -118,7 +118,7 @@ const std::map<std::string, Layout>& cppLayouts() {
       {"ResolveParams",
        {sizeof(shared::ResolveParams),
         {AT(ResolveParams, march), AT(ResolveParams, options), AT(ResolveParams, samples01),
-         AT(ResolveParams, samples23), AT(ResolveParams, ambient)}}},
+         AT(ResolveParams, samples23), AT(ResolveParams, ambient), AT(ResolveParams, area)}}},
       {"ResolveCounters",
        {sizeof(shared::ResolveCounters),
         {AT(ResolveCounters, groups), AT(ResolveCounters, unfinished), AT(ResolveCounters, boundHit)}}},
