@@ -135,6 +135,18 @@ void expectWellFormed(const DensityGrid& grid) {
       }
 }
 
+TEST_F(VdbFile, IsReadOnceForAllItsGrids) {
+  auto flames = fogGrid("flames");
+  flames->tree().setValueOn({3, 4, 5}, 0.75f);
+  save(path("fire.vdb"), {smallCloud(), flames});
+  const DensityGrid density = readVdb(path("fire.vdb"), "density");
+  const VdbReader reader(path("fire.vdb"));
+  fs::remove(path("fire.vdb"));
+  EXPECT_EQ(reader.read("density").values, density.values);
+  EXPECT_EQ(valueAt(reader.read("flames"), 3, 4, 5), 0.75f);
+  EXPECT_EQ(reader.read("").values, density.values);
+}
+
 TEST_F(VdbFile, KeepsValuesNamePlaceAndTransformThroughWritingAndReading) {
   DensityGrid grid;
   grid.name = "steam";
