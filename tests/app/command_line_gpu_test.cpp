@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "image/image_file.h"
 #include "image/metrics.h"
+#include "lists/driver_verdict.h"
 #include "pipelines/pipeline_names.h"
 #include "tests/app/program.h"
 #include "tests/gl/test_device.h"
@@ -498,6 +499,21 @@ TEST_F(CommandLineRender, ReportsProgressOnStderr) {
   const Outcome bar = run(draft({"scene.gltf", "-o", "out.png"}, "8x8"), {.terminal = true});
   EXPECT_NE(bar.err.find("\rrendering [=========================] 100% "), std::string::npos) << bar.err;
   EXPECT_TRUE(bar.err.ends_with("s\r\n")) << bar.err;
+}
+
+// What `validate` once found out for the user decides nothing in tests, unless they ask for it.
+TEST_F(CommandLineRender, RunsInTestsWithoutTheUsersVerdict) {
+  const std::filesystem::path cache = path("cache of the user");
+  const gl::DeviceNames& names = tests::testDevice()->names();
+  setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+  lists::saveVerdict({{names.vendor, names.renderer, names.version}, {{"count", lists::Trust::Unsafe}}});
+  const auto strategy = [&](const std::vector<std::string>& environment) {
+    render({"scene.gltf", "-o", "out.exr", "--stats", "out.json"}, "8x8", {.environment = environment});
+    return Json::parse(contentOf(path("out.json")))["lists"]["surfaces"]["strategy"];
+  };
+  EXPECT_EQ(strategy({}), "count");
+  EXPECT_EQ(strategy({"XDG_CACHE_HOME=" + cache.string()}), "append");
+  unsetenv("XDG_CACHE_HOME");
 }
 
 TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
