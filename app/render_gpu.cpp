@@ -18,6 +18,13 @@
 namespace sfumato::app {
 namespace {
 
+pipelines::FrameOptions frameOptions(const RenderOptions& options, const Shot& shot) {
+  return {.aovs = shot.aovsToDraw(),
+          .deep = !options.deep.empty(),
+          .deepShadows = shot.deepShadows,
+          .countLookups = !options.statistics.empty()};
+}
+
 // Draws the frame --repeat times; the profiler keeps the times of the last one.
 pipelines::Frame drawFrames(gl::Device& device, pipelines::Pipeline& pipeline, const Shot& shot,
                             const RenderOptions& options, std::vector<double>& seconds) {
@@ -26,15 +33,12 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::Pipeline& pipeline, c
   pipelines::Frame frame;
   const auto tiles = pipelines::tilesOf(options.width, options.height).size();
   base::Progress progress("rendering", options.repeat * static_cast<long>(tiles));
+  pipelines::FrameOptions ofFrame = frameOptions(options, shot);
+  ofFrame.onTile = [&] { progress.advance(); };
   for (int i = 0; i < options.repeat; ++i) {
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
-    frame = pipeline.render(shot.camera, options.width, options.height, quality,
-                            {.aovs = shot.aovsToDraw(),
-                             .deep = !options.deep.empty(),
-                             .deepShadows = shot.deepShadows,
-                             .countLookups = !options.statistics.empty(),
-                             .onTile = [&] { progress.advance(); }});
+    frame = pipeline.render(shot.camera, options.width, options.height, quality, ofFrame);
     seconds.push_back(secondsSince(start));
   }
   return frame;
@@ -75,6 +79,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   RunTimes times;
   const auto pipeline = pipelines::makePipeline(options.pipeline, device, shot.scene, shot.media,
                                                 {.budgetBytes = shot.volumeMemory});
+  pipeline->prepare(shot.quality, frameOptions(options, shot));
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);

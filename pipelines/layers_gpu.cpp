@@ -65,7 +65,7 @@ LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, i
       passBlock_(scene.device(), "layer pass", sizeof(shared::ResolveParams)) {
   viewBlock_.writeValue(view_.params);
   const auto faces = buildShadows(usual.lightsOnce);
-  occlusion_ = scene.drawOcclusion(view_, quality.ambientOcclusion);
+  occlusion_ = scene.drawOcclusion(view_, quality);
   const Profiler::Scope time(device().profiler(), "light lists");
   lightLists_.emplace(device(), lights::LightListInputs{scene.lights(), faces, viewBlock_, width, height,
                                                         std::nullopt, nullptr, quality.lists});
@@ -140,7 +140,7 @@ gl::ShaderDefines LayeredFrame::interlaceDefines() const {
 }
 
 gl::ShaderDefines LayeredFrame::glowDefines() const {
-  return occlusion_ ? gl::joined(lightingDefines(), occlusion_->defines()) : lightingDefines();
+  return gl::joined(lightingDefines(), occlusionDefines(scene_.occlusionOf(quality_)));
 }
 
 const lights::Light& LayeredFrame::light(size_t number) const {

@@ -25,8 +25,34 @@ namespace {
 // A dispatch does RESOLVE_WORK_LIMIT of a pixel's work; no sane frame needs this many.
 constexpr int maxResolveDispatches = 10000;
 
-gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, const Quality& quality) {
-  return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(quality));
+// Of the G-buffer's pixels.
+int samplesOf(const gl::Device& device, const Quality& quality) {
+  return std::clamp(quality.samples, 1, std::min(MAX_SAMPLES, device.limits().samples));
+}
+
+// What a frame's rays are walked for.
+struct WalkOptions {
+  size_t samples;
+  bool countLookups;
+  bool deep;
+};
+
+gl::ShaderDefines marchDefines(const SceneGpu& scene, const Quality& quality, const WalkOptions& options) {
+  return gl::joined({{"SAMPLES", std::to_string(options.samples)}}, scene.lightingDefines(quality));
+}
+
+bool takesBlocks(const SceneGpu& scene, const Quality& quality, const WalkOptions& options) {
+  return quality.halfResolutionSmoke && !scene.volumes().empty() && !options.deep;
+}
+
+// Of the program that walks the rays.
+gl::ShaderDefines resolveDefines(const SceneGpu& scene, const Quality& quality, const WalkOptions& options) {
+  gl::ShaderDefines defines = marchDefines(scene, quality, options);
+  if (takesBlocks(scene, quality, options)) defines.emplace_back("SMOKE_BLOCKS", "1");
+  if (options.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
+  if (options.deep) defines.emplace_back("DEEP", "1");
+  return gl::joined(defines, occlusionDefines(scene.occlusionOf(quality)));
 }
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -217,17 +243,13 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality);
+  const WalkOptions options{samples, inputs.countLookups, frame.deep.has_value()};
   SmokeBlocks blocks;
-  if (inputs.quality.halfResolutionSmoke && !inputs.scene.volumes().empty() && !frame.deep) {
-    blocks = marchBlocks(device, inputs, defines, frame.statistics);
-    defines.emplace_back("SMOKE_BLOCKS", "1");
-  }
-  if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
-  if (inputs.quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
-  if (frame.deep) defines.emplace_back("DEEP", "1");
-  if (inputs.occlusion) defines = gl::joined(defines, inputs.occlusion->defines());
-  const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
+  if (takesBlocks(inputs.scene, inputs.quality, options))
+    blocks =
+        marchBlocks(device, inputs, marchDefines(inputs.scene, inputs.quality, options), frame.statistics);
+  const gl::Program& program =
+      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.scene, inputs.quality, options));
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   Walk walk(device, inputs, rays);
   gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec4) : 0);
@@ -291,8 +313,7 @@ class TilePainter {
     useView(tile, tile);
     const GBuffer gbuffer = [&] {
       const Profiler::Scope time(device_.profiler(), "opaque G-buffer");
-      const int samples =
-          std::clamp(inputs_.quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
+      const int samples = samplesOf(device_, inputs_.quality);
       const bool baseColour = frame_.aovs.contains(Aov::Albedo);
       return drawGBuffer(device_, {inputs_.scene.geometry(), view_, inputs_.width, inputs_.height, samples,
                                    tile, baseColour, inputs_.quality.depthsFirst});
@@ -386,13 +407,10 @@ class TilePainter {
 
 }  // namespace
 
-LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
-                                         std::span<const volumes::Medium> media,
-                                         const volumes::GridOptions& gridOptions)
-    : Pipeline(device, scene, media, gridOptions) {
-  // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
-  const int samples = std::min(MAX_SAMPLES, device.limits().samples);
-  device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), Quality{}));
+void LinkedListsPipeline::prepare(const Quality& quality, const FrameOptions& options) {
+  const auto samples = static_cast<size_t>(samplesOf(scene_.device(), quality));
+  scene_.device().program({"pipelines/resolve.comp"},
+                          resolveDefines(scene_, quality, {samples, options.countLookups, options.deep}));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
@@ -407,7 +425,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   }
   for (const size_t light : options.deepShadows)
     frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
-  const auto occlusion = scene_.drawOcclusion(view, quality.ambientOcclusion);
+  const auto occlusion = scene_.drawOcclusion(view, quality);
   const TileInputs inputs{scene_,      shadows, quality, occlusion ? &*occlusion : nullptr,
                           view.params, width,   height,  options.countLookups,
                           deepLimits};

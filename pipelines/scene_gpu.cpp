@@ -98,9 +98,12 @@ shared::ResolveParams SceneGpu::lightingParams(const Quality& quality, int direc
   return params;
 }
 
-std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view,
-                                                        const AmbientOcclusionOptions& options) const {
-  if (options.size == OcclusionSize::Off || scene_.ambient == glm::dvec3(0)) return std::nullopt;
+OcclusionSize SceneGpu::occlusionOf(const Quality& quality) const {
+  return scene_.ambient == glm::dvec3(0) ? OcclusionSize::Off : quality.ambientOcclusion.size;
+}
+
+std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view, const Quality& quality) const {
+  if (occlusionOf(quality) == OcclusionSize::Off) return std::nullopt;
   gl::Buffer viewBlock(device_, "camera view", sizeof(shared::ViewParams));
   viewBlock.writeValue(view.params);
   const GBuffer gbuffer = [&] {
@@ -108,8 +111,8 @@ std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view,
     return drawGBuffer(
         device_, {.geometry = geometry_, .view = viewBlock, .width = view.width, .height = view.height});
   }();
-  return drawAmbientOcclusion(device_,
-                              {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height, options});
+  return drawAmbientOcclusion(device_, {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height,
+                                        quality.ambientOcclusion});
 }
 
 ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& quality) const {

@@ -63,10 +63,10 @@ class SceneGpu {
   gl::ShaderDefines lightingDefines(const Quality& quality) const;
   // What they are told; rays and samples are the pass's own.
   shared::ResolveParams lightingParams(const Quality& quality, int directionalLights) const;
-  // Of the whole image at once, from a G-buffer of its own; nothing where none is asked for, or where there
-  // is no ambient light to take from.
-  std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view,
-                                                const AmbientOcclusionOptions& options) const;
+  // What occlusion such frames have: none where there is no ambient light to take from.
+  OcclusionSize occlusionOf(const Quality& quality) const;
+  // Of the whole image at once, from a G-buffer of its own, where there is any.
+  std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view, const Quality& quality) const;
   ShadowInputs shadowInputs(const FrameView& view, const Quality& quality) const;
   // `linkedNodes`: see deepshadow::MapInputs.
   deepshadow::Maps buildShadows(const FrameView& view, const Quality& quality, size_t linkedNodes = 0) const;
