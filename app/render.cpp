@@ -177,10 +177,10 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   quality.scatteringOctaves = options.scatteringOctaves;
   quality.depthsFirst = options.depthsFirst;
   if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
-  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
+  if (!options.lists.empty()) quality.lists.strategy = lists::strategies().named(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
-  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
+  quality.lists.onOverflow = lists::overflowPolicies().named(options.onOverflow);
   quality.deferred = deferredOf(options);
   return quality;
 }

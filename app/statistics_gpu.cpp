@@ -8,7 +8,7 @@ namespace sfumato::app {
 namespace {
 
 nlohmann::json toJson(const lists::ListStatistics& lists, const pipelines::PredictedLists& fromBounds) {
-  return {{"strategy", lists::nameOf(lists.strategy)},
+  return {{"strategy", lists::strategies().nameOf(lists.strategy)},
           {"cells", lists.cells},
           {"nodes_from_bounds", fromBounds.nodes},
           {"nodes_predicted", lists.predicted},
