@@ -19,21 +19,23 @@ using pipelines::Aov;
 
 std::string heatMapFile(const std::string& picture, Aov aov) {
   const std::filesystem::path path(picture);
-  return path.parent_path() / (path.stem().string() + "." + nameOf(aov) + path.extension().string());
+  return path.parent_path() /
+         (path.stem().string() + "." + pipelines::aovKinds().nameOf(aov) + path.extension().string());
 }
 
 }  // namespace
 
 pipelines::AovSet wantedAovs(const RenderOptions& options) {
   pipelines::AovSet aovs;
-  for (const std::string& name : options.aovs) aovs.insert(pipelines::aovNamed(name));
+  for (const std::string& name : options.aovs) aovs.insert(pipelines::aovKinds().named(name));
   const bool hasLayers = std::ranges::any_of(options.outputs, image::holdsLayers);
   for (const Aov aov : aovs) {
     if (options.reference && isOfLists(aov))
       fail(ExitCode::Usage, "--aov {}: is of lists that --reference does not have: leave one of them out",
-           nameOf(aov));
+           pipelines::aovKinds().nameOf(aov));
     if (!hasLayers && !isCount(aov) && !options.dryRun)
-      fail(ExitCode::Usage, "--aov {}: only an .exr holds it: name one with -o", nameOf(aov));
+      fail(ExitCode::Usage, "--aov {}: only an .exr holds it: name one with -o",
+           pipelines::aovKinds().nameOf(aov));
   }
   return aovs;
 }
@@ -52,7 +54,7 @@ void writeHeatMaps(const RenderOptions& options, const pipelines::AovImages& aov
     if (!isCount(aov)) continue;
     const float most = std::max(1.f, *std::ranges::max_element(counts.values));
     image::Metadata metadata = settings;
-    metadata.emplace_back("sfumato:aov", nameOf(aov));
+    metadata.emplace_back("sfumato:aov", pipelines::aovKinds().nameOf(aov));
     metadata.emplace_back("sfumato:heat_map_scale", fmt::format("0 to {}", most));
     for (const std::string& output : options.outputs) {
       if (image::holdsLayers(output)) continue;

@@ -187,7 +187,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
                 "March smoke once for 2 x 2 pixels at least: faster, less sharp")
       ->group("Quality");
   add("--shadow-res", options.shadowResolution,
-      "Texels a side of every deep shadow map: 32 to 16384, else what suits")
+      "Texels a side of every shadow map: 32 to 16384, else what suits")
       ->type_name("TEXELS")
       ->check(wholeBetween(32, 16384));
   add("--shadow-error", options.shadowError,
@@ -198,7 +198,8 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       "Look shadows up so: nearest, bilinear, soft; else by --quality")
       ->type_name("NAME")
       ->check(oneOf(pipelines::shadowFilters().names));
-  add("--shadow-memory", options.shadowMemory, "Most that they may take together, else what the device reads")
+  add("--shadow-memory", options.shadowMemory,
+      "Most that shadow maps may take together, else what the device holds")
       ->type_name("BYTES|64K|256M|2G");
 }
 
@@ -260,12 +261,12 @@ void addLists(CLI::App& command, RenderOptions& options) {
   };
   add("--lists", options.lists, "Build lists so: spinlock, lockfree, append, count; else what suits")
       ->type_name("NAME")
-      ->check(oneOf(lists::strategyNames()));
+      ->check(oneOf(lists::strategies().names));
   add("--list-memory", options.listMemory, "Most that the lists at one time may take, else what there is")
       ->type_name("BYTES|64K|256M|2G");
   add("--on-overflow", options.onOverflow, "What then: grow, window (in parts, slower) or error; else window")
       ->type_name("NAME")
-      ->check(oneOf(lists::onOverflowNames()));
+      ->check(oneOf(lists::overflowPolicies().names));
 }
 
 void addReference(CLI::App& command, RenderOptions& options) {
@@ -317,11 +318,11 @@ void addOutput(CLI::App& command, RenderOptions& options) {
       ->allow_extra_args(false);
   add("--aov", options.aovs,
       fmt::format("Layers of an .exr; of the last three heat maps beside a .png:\n{}",
-                  fmt::join(pipelines::aovNames(), ", ")))
+                  fmt::join(pipelines::aovKinds().names, ", ")))
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(oneOf(pipelines::aovNames()));
+      ->check(oneOf(pipelines::aovKinds().names));
   add("--deep", options.deep, "Write what lies along each pixel's depth, for deep compositing")
       ->type_name("FILE.exr")
       ->check(fileName());
@@ -430,7 +431,7 @@ void addLoad(CLI::App& command, StressOptions& options) {
       ->group("Synthetic loads");
   addChoices(command, "--distribution", options.distributions, "Of uniform,hot-spot,one-cell,hair; else all")
       ->type_name("NAME,...")
-      ->check(oneOf(lists::stress::distributionNames()))
+      ->check(oneOf(lists::stress::distributions().names))
       ->group("Synthetic loads");
   addChoices(command, "--node-bytes", options.nodeBytes, "Payload of a node: 0, 4, ... 64; else 4")
       ->type_name("BYTES,...")
@@ -446,7 +447,7 @@ void addLoad(CLI::App& command, StressOptions& options) {
 void addStrategies(CLI::App& command, StressOptions& options) {
   addChoices(command, "--lists", options.lists, "Of spinlock,lockfree,append,count; else all")
       ->type_name("NAME,...")
-      ->check(oneOf(lists::strategyNames()))
+      ->check(oneOf(lists::strategies().names))
       ->group("Lists");
   addChoices(command, "--list-memory", options.listMemory,
              "Budgets: none, 256M, or 10% of what finished lists take; else none,10%")
@@ -456,7 +457,7 @@ void addStrategies(CLI::App& command, StressOptions& options) {
   command
       .add_option("--on-overflow", options.onOverflow, "Of the budget: grow, window or error; else window")
       ->type_name("NAME")
-      ->check(oneOf(lists::onOverflowNames()))
+      ->check(oneOf(lists::overflowPolicies().names))
       ->group("Lists");
 }
 

@@ -65,7 +65,7 @@ struct RenderOptions {
   bool halfResolutionSmoke = false;
   std::optional<double> shadowError;
   std::string shadowFilter;   // empty: by quality
-  std::string shadowMemory;   // empty: what the device reads
+  std::string shadowMemory;   // empty: what the device holds
   int scatteringOctaves = 0;  // of multiple scattering
   std::string lists;          // a strategy; empty: the device's
   std::string listMemory;     // empty: what the device allows

@@ -178,10 +178,10 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
   quality.depthsFirst = options.depthsFirst;
   quality.smokeRaySpacing = options.smokeSpacing.value_or(quality.smokeRaySpacing);
   quality.halfResolutionSmoke = options.halfResolutionSmoke;
-  if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
+  if (!options.lists.empty()) quality.lists.strategy = lists::strategies().named(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
-  quality.lists.onOverflow = lists::onOverflowNamed(options.onOverflow);
+  quality.lists.onOverflow = lists::overflowPolicies().named(options.onOverflow);
   quality.deferred = deferredOf(options);
   return quality;
 }

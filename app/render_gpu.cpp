@@ -18,6 +18,13 @@
 namespace sfumato::app {
 namespace {
 
+pipelines::FrameOptions frameOptions(const RenderOptions& options, const Shot& shot) {
+  return {.aovs = shot.aovsToDraw(),
+          .deep = !options.deep.empty(),
+          .deepShadows = shot.deepShadows,
+          .countLookups = !options.statistics.empty()};
+}
+
 // Draws the frame --repeat times; the profiler keeps the times of the last one.
 pipelines::Frame drawFrames(gl::Device& device, pipelines::Pipeline& pipeline, const Shot& shot,
                             const RenderOptions& options, std::vector<double>& seconds) {
@@ -26,15 +33,12 @@ pipelines::Frame drawFrames(gl::Device& device, pipelines::Pipeline& pipeline, c
   pipelines::Frame frame;
   const auto tiles = pipelines::tilesOf(options.width, options.height).size();
   base::Progress progress("rendering", options.repeat * static_cast<long>(tiles));
+  pipelines::FrameOptions ofFrame = frameOptions(options, shot);
+  ofFrame.onTile = [&] { progress.advance(); };
   for (int i = 0; i < options.repeat; ++i) {
     device.profiler().reset();
     const Clock::time_point start = Clock::now();
-    frame = pipeline.render(shot.camera, options.width, options.height, quality,
-                            {.aovs = shot.aovsToDraw(),
-                             .deep = !options.deep.empty(),
-                             .deepShadows = shot.deepShadows,
-                             .countLookups = !options.statistics.empty(),
-                             .onTile = [&] { progress.advance(); }});
+    frame = pipeline.render(shot.camera, options.width, options.height, quality, ofFrame);
     seconds.push_back(secondsSince(start));
   }
   return frame;
@@ -49,17 +53,18 @@ void warnOfProblems(gl::Device& device, const pipelines::FrameStatistics& statis
         statistics.cutWalks);
 }
 
-void noteShadowMaps(const pipelines::FrameStatistics& statistics) {
-  const pipelines::ShadowFigures& maps = statistics.shadowMaps;
+void noteShadowMaps(const pipelines::ShadowFigures& maps) {
   std::map<int, int, std::greater<>> lights;  // by resolution
-  for (const deepshadow::LightMap& map : statistics.shadows)
-    if (map.faces > 0) ++lights[map.resolution];
+  for (const int resolution : maps.resolutions)
+    if (resolution > 0) ++lights[resolution];
   std::string resolutions;
   for (const auto& [resolution, count] : lights)
     resolutions += fmt::format("{}{} of {}", resolutions.empty() ? "" : ", ", count, resolution);
-  base::note("shadow maps: {} texels a side, error bound {:.5f}: {} of {}{}",
-             resolutions.empty() ? "none" : resolutions, maps.error, base::sizeText(maps.bytes),
-             base::sizeText(maps.budgetBytes), maps.lowered ? ": coarser, to fit" : "");
+  if (resolutions.empty()) return base::note("shadow maps: none");
+  base::note("shadow maps: {} texels a side{}: {} of {}{}", resolutions,
+             maps.error > 0 ? fmt::format(", error bound {:.5f}", maps.error) : "",
+             base::sizeText(maps.bytes), base::sizeText(maps.budgetBytes),
+             maps.lowered ? ": coarser, to fit" : "");
 }
 
 }  // namespace
@@ -74,6 +79,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   RunTimes times;
   const auto pipeline = pipelines::makePipeline(options.pipeline, device, shot.scene, shot.media,
                                                 {.budgetBytes = shot.volumeMemory});
+  pipeline->prepare(shot.camera, options.width, options.height, shot.quality, frameOptions(options, shot));
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);
@@ -88,7 +94,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   postProcess(device, options, shot, drawn);
   times.framePasses = device.profiler().times();
   base::note("frame: {:.2f} s", times.frameSeconds.back());
-  noteShadowMaps(frame.statistics);
+  noteShadowMaps(frame.statistics.shadowMaps);
   warnOfProblems(device, frame.statistics);
   if (options.statistics.empty()) return drawn;
   const pipelines::ListPrediction fromBounds = pipelines::predictLists(

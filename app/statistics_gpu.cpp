@@ -8,7 +8,7 @@ namespace sfumato::app {
 namespace {
 
 nlohmann::json toJson(const lists::ListStatistics& lists, const pipelines::PredictedLists& fromBounds) {
-  return {{"strategy", lists::nameOf(lists.strategy)},
+  return {{"strategy", lists::strategies().nameOf(lists.strategy)},
           {"cells", lists.cells},
           {"nodes_from_bounds", fromBounds.nodes},
           {"nodes_predicted", lists.predicted},
@@ -82,7 +82,8 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
     result["lists"]["shadows"].push_back(light);
   }
   const pipelines::ShadowFigures& maps = statistics.shadowMaps;
-  result["shadow_maps"] = {{"error", maps.error},
+  result["shadow_maps"] = {{"resolutions", maps.resolutions},
+                           {"error", maps.error},
                            {"lowered", maps.lowered},
                            {"bytes", maps.bytes},
                            {"predicted_bytes", maps.predictedBytes},

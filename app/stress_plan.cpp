@@ -57,7 +57,7 @@ void checkSize(const Load& load) {
 
 StressRun runOf(const Load& load, lists::Strategy strategy, size_t budget, lists::OnOverflow onOverflow) {
   StressRun run;
-  run.load = nameOf(load.distribution);
+  run.load = lists::stress::distributions().nameOf(load.distribution);
   run.synthetic = load;
   run.options = {.strategy = strategy, .budgetBytes = budget, .onOverflow = onOverflow};
   return run;
@@ -84,14 +84,14 @@ std::vector<StressRun> plannedRuns(const StressOptions& options) {
           const Load load{.width = cells.x,
                           .height = cells.y,
                           .layers = layers,
-                          .distribution = lists::stress::distributionNamed(distribution),
+                          .distribution = lists::stress::distributions().named(distribution),
                           .payloadWords = static_cast<uint32_t>(nodeBytes / 4),
                           .seed = static_cast<uint32_t>(options.seed)};
           checkSize(load);
           for (const size_t budget : budgetsOf(options, load))
             for (const std::string& strategy : options.lists)
-              runs.push_back(runOf(load, lists::strategyNamed(strategy), budget,
-                                   lists::onOverflowNamed(options.onOverflow)));
+              runs.push_back(runOf(load, lists::strategies().named(strategy), budget,
+                                   lists::overflowPolicies().named(options.onOverflow)));
         }
   return runs;
 }
@@ -101,15 +101,15 @@ StressRun drawnRun(const StressOptions& options, base::Random& random) {
   Load load{.width = drawnSize(cells.x, random),
             .height = drawnSize(cells.y, random),
             .layers = drawnSize(oneOf(options.layers, random), random),
-            .distribution = lists::stress::distributionNamed(oneOf(options.distributions, random)),
+            .distribution = lists::stress::distributions().named(oneOf(options.distributions, random)),
             .payloadWords = static_cast<uint32_t>(oneOf(options.nodeBytes, random) / 4),
             .seed = random.next()};
   checkSize(load);
   const size_t budget = random.next() % 2 == 0
                             ? oneOf(budgetsOf(options, load), random)
                             : budgetOf(fmt::format("{}%", 5 + random.next() % 150), load) + smallestBudget;
-  return runOf(load, lists::strategyNamed(oneOf(options.lists, random)), budget,
-               lists::onOverflowNamed(options.onOverflow));
+  return runOf(load, lists::strategies().named(oneOf(options.lists, random)), budget,
+               lists::overflowPolicies().named(options.onOverflow));
 }
 
 }  // namespace sfumato::app

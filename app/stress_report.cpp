@@ -36,7 +36,7 @@ Runs where(const Runs& runs, const std::function<bool(const StressRun&)>& holds)
 }
 
 std::string strategyOf(const StressRun& run) {
-  return nameOf(run.options.strategy);
+  return lists::strategies().nameOf(run.options.strategy);
 }
 
 std::string loadOf(const StressRun& run) {

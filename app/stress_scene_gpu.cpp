@@ -37,9 +37,9 @@ std::vector<lists::ListOptions> listOptions(const StressOptions& options) {
   const std::vector<std::string> unlimited = {"none"};
   for (const std::string& budget : options.listMemory.empty() ? unlimited : options.listMemory)
     for (const std::string& strategy : options.lists)
-      all.push_back({.strategy = lists::strategyNamed(strategy),
+      all.push_back({.strategy = lists::strategies().named(strategy),
                      .budgetBytes = budget == "none" ? 0 : base::bytesNamed(budget, "--list-memory"),
-                     .onOverflow = lists::onOverflowNamed(options.onOverflow)});
+                     .onOverflow = lists::overflowPolicies().named(options.onOverflow)});
   return all;
 }
 

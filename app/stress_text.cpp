@@ -49,7 +49,7 @@ Row headOf(const StressResult& result) {
 
 Row rowOf(const StressRun& run) {
   const lists::ListStatistics& s = run.statistics;
-  Row row = {nameOf(run.options.strategy),
+  Row row = {lists::strategies().nameOf(run.options.strategy),
              run.load,
              sizeOf(run),
              std::to_string(run.synthetic ? run.synthetic->layers : run.lights),
@@ -81,10 +81,11 @@ std::string unitsOf(const StressResult& result) {
 
 std::string describe(const StressRun& run) {
   if (!run.synthetic)
-    return fmt::format("{} of {} lights, {}", run.load, run.lights, nameOf(run.options.strategy));
+    return fmt::format("{} of {} lights, {}", run.load, run.lights,
+                       lists::strategies().nameOf(run.options.strategy));
   return fmt::format("{} {} layers {} payload {} seed {} budget {} {}", sizeOf(run), run.load,
                      run.synthetic->layers, run.synthetic->payloadWords * 4, run.synthetic->seed,
-                     run.options.budgetBytes, nameOf(run.options.strategy));
+                     run.options.budgetBytes, lists::strategies().nameOf(run.options.strategy));
 }
 
 // A soak has too many runs for a line each.
@@ -110,7 +111,7 @@ std::string soakTable(const StressResult& result) {
   std::vector<Row> rows = {{"strategy", "runs", "refused", "most windows", "stored", "lost", "faults",
                             "most spins", "longest", "build", "resolve"}};
   for (const auto& [strategy, sum] : sums) {
-    Row row = {nameOf(strategy)};
+    Row row = {lists::strategies().nameOf(strategy)};
     for (const size_t value :
          {sum.runs, sum.refused, sum.windows, sum.stored, sum.lost, sum.faults, sum.spins, sum.longest})
       row.push_back(std::to_string(value));
@@ -137,8 +138,8 @@ Json rateJson(size_t count, double seconds) {
 }
 
 Json settingsJson(const StressRun& run) {
-  Json json = {{"strategy", nameOf(run.options.strategy)},
-               {"on_overflow", nameOf(run.options.onOverflow)},
+  Json json = {{"strategy", lists::strategies().nameOf(run.options.strategy)},
+               {"on_overflow", lists::overflowPolicies().nameOf(run.options.onOverflow)},
                {"budget_bytes", run.options.budgetBytes == 0 ? Json() : Json(run.options.budgetBytes)}};
   if (!run.synthetic) {
     json.update({{"lists", run.load},

@@ -36,12 +36,82 @@ int mostLines(const gl::Device& device) {
   return std::min(device.limits().texture2dSize, device.limits().framebufferSize);
 }
 
+size_t texelBytes(InterlacedKind kind) {
+  return kind == InterlacedKind::Opaque ? 8 : 12;
+}
+
+bool hasMap(const InterlacedInputs& inputs, size_t light) {
+  return inputs.lights[light].castsShadow && inputs.resolutions[light] > 0;
+}
+
+// Where faces stand in the textures: those of a light one above the other, lights above each other as long as
+// the textures may be that high, then beside.
+class Stacks {
+ public:
+  explicit Stacks(const gl::Device& device) : mostLines_(mostLines(device)) {}
+
+  // The corner of the first of a light's faces.
+  ivec2 place(int faces, int side) {
+    if (next_.y + faces * side > mostLines_) next_ = {size_.x, 0};
+    const ivec2 corner = next_;
+    next_.y += faces * side;
+    size_ = glm::max(size_, ivec2(corner.x + side, next_.y));
+    return corner;
+  }
+  const ivec2& size() const { return size_; }
+
+ private:
+  int mostLines_;
+  ivec2 next_{0};
+  ivec2 size_{0};
+};
+
+// Of the textures that hold what stands at once.
+ivec2 sizeOf(const gl::Device& device, const InterlacedInputs& inputs, const std::vector<int>& resolutions,
+             InterlacedStand stand) {
+  Stacks stacks(device);
+  ivec2 largest(0);
+  for (size_t i = 0; i < inputs.lights.size(); ++i) {
+    if (!hasMap(inputs, i)) continue;
+    if (stand == InterlacedStand::InTurns) stacks = Stacks(device);
+    const int faces = scene::faceCount(inputs.lights[i]);
+    stacks.place(faces, faceSide(resolutions[i]) / (faces == 1 ? 1 : 2));
+    largest = glm::max(largest, stacks.size());
+  }
+  return largest;
+}
+
 }  // namespace
 
 gl::ShaderDefines lookupDefines(InterlacedKind kind) {
   gl::ShaderDefines defines = {{"INTERLACED_SHADOWS", "1"}};
   if (kind == InterlacedKind::Opaque) defines.emplace_back("PLAIN_SHADOWS", "1");
   return defines;
+}
+
+InterlacedPlan planOf(const gl::Device& device, const InterlacedInputs& inputs, const MapBudget& budget,
+                      InterlacedStand stand) {
+  const int lines = mostLines(device);
+  const auto bytesOf = [&](const ivec2& size) {
+    return static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * texelBytes(inputs.kind);
+  };
+  const size_t budgetBytes = budget.bytes != 0 ? budget.bytes : bytesOf(ivec2(lines));
+  const MapPlan asked{{inputs.resolutions.begin(), inputs.resolutions.end()}, 0};
+  MapPlan plan = asked;
+  for (size_t i = 0; i < inputs.lights.size(); ++i) {
+    const int faces = scene::faceCount(inputs.lights[i]);
+    plan.resolutions[i] = std::min(plan.resolutions[i], faces == 1 ? lines : lines / faces * 2);
+  }
+  for (;;) {
+    const ivec2 size = sizeOf(device, inputs, plan.resolutions, stand);
+    const double excess = std::max(static_cast<double>(bytesOf(size)) / static_cast<double>(budgetBytes),
+                                   static_cast<double>(size.x) / lines);
+    if (excess <= 1) return {plan.resolutions, plan.resolutions != asked.resolutions, budgetBytes};
+    const auto next =
+        coarser(plan, asked, {.lowerResolution = budget.lowerResolution, .loosenError = false}, excess);
+    if (!next) failOverBudget("interlaced shadow maps", excess, budgetBytes);
+    plan = *next;
+  }
 }
 
 void InterlacedMaps::build(gl::Device& device, const InterlacedInputs& inputs) {
@@ -58,32 +128,28 @@ void InterlacedMaps::build(gl::Device& device, const InterlacedInputs& inputs) {
   draw(device, inputs);
 }
 
-// Stands the faces of a light one above the other, and lights above each other as long as the textures may be
-// that high, then beside. Returns the size that takes.
+// Returns the size of what holds all faces.
 ivec2 InterlacedMaps::arrange(const gl::Device& device, const InterlacedInputs& inputs) {
   lights_.clear();
   faces_.clear();
   lightColours_.clear();
-  ivec2 size(0);
-  ivec2 corner(0);  // of the next face
+  Stacks stacks(device);
   for (size_t i = 0; i < inputs.lights.size(); ++i) {
     const lights::Light& light = inputs.lights[i];
     LightMap& map = lights_.emplace_back();
-    if (!light.castsShadow || inputs.resolutions[i] == 0) continue;
-    map.faces = scene::faceCount(light);
-    const int mostTexels = map.faces == 1 ? mostLines(device) : mostLines(device) / map.faces * 2;
-    map.resolution = std::min(inputs.resolutions[i], mostTexels);
-    const auto faces = scene::facesOf(light, map.resolution, inputs.receivers, inputs.castingPoints);
+    if (!hasMap(inputs, i)) continue;
+    map.resolution = inputs.resolutions[i];
     map.firstFace = static_cast<int>(faces_.size());
-    if (corner.y + map.faces * faces.front().side > mostLines(device)) corner = {size.x, 0};
+    const auto faces = scene::facesOf(light, map.resolution, inputs.receivers, inputs.castingPoints);
+    map.faces = static_cast<int>(faces.size());
+    ivec2 corner = stacks.place(map.faces, faces.front().side);
     for (const FaceProjection& face : faces) {
       faces_.push_back({face, corner});
       lightColours_.push_back(colourOf(light));
       corner.y += face.side;
-      size = glm::max(size, ivec2(corner.x + face.side, corner.y));
     }
   }
-  return size;
+  return stacks.size();
 }
 
 void InterlacedMaps::reserve(gl::Device& device, const ivec2& size, InterlacedKind kind) {

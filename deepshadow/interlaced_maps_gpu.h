@@ -46,12 +46,28 @@ struct InterlacedInputs {
   InterlacedKind kind = InterlacedKind::Transmittance;
 };
 
+// Whether all maps of a frame stand in the textures at once, or each light's in its turn in the place of the
+// one before.
+enum class InterlacedStand { Together, InTurns };
+
+struct InterlacedPlan {
+  std::vector<int> resolutions;  // of each light
+  bool lowered = false;          // whether that is coarser than was asked for
+  size_t budgetBytes = 0;        // of the textures; without a budget what the device draws into
+};
+
+// Resolutions for the maps of a frame, as asked for or, where the textures that hold what stands at once
+// would be larger than the budget or than the device's are, lower ones that fit, evenly (map_plan.h). All
+// lights are those of `inputs`. Throws Memory when nothing fits that the budget allows.
+InterlacedPlan planOf(const gl::Device& device, const InterlacedInputs& inputs, const MapBudget& budget,
+                      InterlacedStand stand);
+
 class InterlacedMaps {
  public:
   struct LightMap {
     int firstFace = -1;  // among all faces; -1: this light casts no shadow
     int faces = 0;
-    int resolution = 0;  // may be less than was asked for, where the device cannot draw into as much
+    int resolution = 0;
   };
   // A face's texels on the CPU, rows from the bottom.
   struct ReadFace {
@@ -62,7 +78,8 @@ class InterlacedMaps {
 
   // Builds the maps of these lights in place of those that it had, whose textures are used again where they
   // are large enough: a pipeline may keep all maps of a frame, or one at a time, each built just before its
-  // light is added up. Costs 12 bytes a texel, 8 for Opaque. Throws Memory when there is no room.
+  // light is added up. Costs 12 bytes a texel, 8 for Opaque. Throws Memory when there is no room: planOf()
+  // tells resolutions that have it.
   void build(gl::Device& device, const InterlacedInputs& inputs);
 
   const std::vector<LightMap>& lights() const { return lights_; }  // in the order of the inputs

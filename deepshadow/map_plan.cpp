@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
+#include "base/size_text.h"
+
 namespace sfumato::deepshadow {
 
 namespace {
@@ -42,6 +45,13 @@ std::optional<MapPlan> coarser(const MapPlan& plan, const MapPlan& asked, const 
   }
   if (budget.lowerResolution) return scaled(plan, asked, share, 0);
   return {};
+}
+
+void failOverBudget(const char* maps, double excess, size_t budgetBytes) {
+  base::fail(base::ExitCode::Memory,
+             "{}: take {:.2g} times the {} that they may: give them more with --shadow-memory, or lower "
+             "--shadow-res",
+             maps, excess, base::sizeText(budgetBytes));
 }
 
 }  // namespace sfumato::deepshadow

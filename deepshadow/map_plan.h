@@ -1,4 +1,4 @@
-// How fine the deep shadow maps of a frame are, within one memory budget for all of them.
+// How fine the shadow maps of a frame are, within one memory budget for all of them.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct MapPlan {
 };
 
 struct MapBudget {
-  size_t bytes = 0;             // of the texels and knots of all maps; 0: what the device reads
+  size_t bytes = 0;             // of all maps; 0: what the device holds
   bool lowerResolution = true;  // what may be given up for it
   bool loosenError = true;
 };
@@ -23,5 +23,9 @@ struct MapBudget {
 // still. Nothing where there is no more to give up. Its knots are to be counted anew.
 std::optional<MapPlan> coarser(const MapPlan& plan, const MapPlan& asked, const MapBudget& budget,
                                double excess);
+
+// Throws Memory: the `maps` ("deep shadow maps") take `excess` times their budget, and there is no more to
+// give up.
+[[noreturn]] void failOverBudget(const char* maps, double excess, size_t budgetBytes);
 
 }  // namespace sfumato::deepshadow

@@ -443,11 +443,7 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
     }
     constexpr double margin = 1.05;  // for what was counted at fewer texels
     const auto next = coarser(plan_, inputs.plan, inputs.budget, margin * std::max(excess, 1.0));
-    if (!next)
-      base::fail(base::ExitCode::Memory,
-                 "deep shadow maps: take {:.2g} times the {:.1f} MiB that they may: give them more with "
-                 "--shadow-memory, or lower --shadow-res",
-                 excess, static_cast<double>(budgetBytes_) / 0x1p20);
+    if (!next) failOverBudget("deep shadow maps", excess, budgetBytes_);
     plan_ = *next;
     lowered_ = true;
   }

@@ -275,34 +275,36 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colours, const Texture*
 
 namespace {
 
-// Clears obey the masks that the last draw left.
-void openMasks(const Framebuffer& framebuffer) {
+// Clears obey the masks and the scissor that the last draw left.
+void openMasks(const Framebuffer& framebuffer, const std::optional<glm::ivec4>& area) {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
   glStencilMask(0xff);
-  glDisable(GL_SCISSOR_TEST);
+  if (!area) return glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(area->x, area->y, area->z, area->w);
 }
 
 }  // namespace
 
-void Framebuffer::clearColour(int attachment, glm::vec4 value) const {
-  openMasks(*this);
+void Framebuffer::clearColour(int attachment, glm::vec4 value, const std::optional<glm::ivec4>& area) const {
+  openMasks(*this, area);
   glClearBufferfv(GL_COLOR, attachment, &value.x);
 }
 
-void Framebuffer::clearColour(int attachment, glm::uvec4 value) const {
-  openMasks(*this);
+void Framebuffer::clearColour(int attachment, glm::uvec4 value, const std::optional<glm::ivec4>& area) const {
+  openMasks(*this, area);
   glClearBufferuiv(GL_COLOR, attachment, &value.x);
 }
 
-void Framebuffer::clearDepth(float value) const {
-  openMasks(*this);
+void Framebuffer::clearDepth(float value, const std::optional<glm::ivec4>& area) const {
+  openMasks(*this, area);
   glClearBufferfv(GL_DEPTH, 0, &value);
 }
 
-void Framebuffer::clearStencil(int value) const {
-  openMasks(*this);
+void Framebuffer::clearStencil(int value, const std::optional<glm::ivec4>& area) const {
+  openMasks(*this, area);
   glClearBufferiv(GL_STENCIL, 0, &value);
 }
 

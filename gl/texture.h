@@ -112,10 +112,11 @@ class Framebuffer {
 
   unsigned name() const { return object_.name(); }
   glm::ivec2 size() const { return size_; }
-  void clearColour(int attachment, glm::vec4 value) const;
-  void clearColour(int attachment, glm::uvec4 value) const;
-  void clearDepth(float value) const;
-  void clearStencil(int value) const;
+  // `area`: only there; x, y, width, height.
+  void clearColour(int attachment, glm::vec4 value, const std::optional<glm::ivec4>& area = {}) const;
+  void clearColour(int attachment, glm::uvec4 value, const std::optional<glm::ivec4>& area = {}) const;
+  void clearDepth(float value, const std::optional<glm::ivec4>& area = {}) const;
+  void clearStencil(int value, const std::optional<glm::ivec4>& area = {}) const;
   // Where the samples of a pixel stand in it, in [0, 1]^2 from its lower left corner.
   std::vector<glm::vec2> samplePositions() const;
 

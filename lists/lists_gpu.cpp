@@ -613,7 +613,7 @@ Strategy chooseStrategy(const gl::Device& device) {
   const gl::DeviceNames& names = device.names();
   const auto verdict = loadVerdict({names.vendor, names.renderer, names.version});
   for (const Strategy strategy : {Strategy::Count, Strategy::Append, Strategy::LockFree, Strategy::SpinLock})
-    if (!verdict || verdict->trusted(nameOf(strategy))) return strategy;
+    if (!verdict || verdict->trusted(strategies().nameOf(strategy))) return strategy;
   base::fail(base::ExitCode::NoGl,
              "{}: `sfumato validate` found that it builds no lists right: choose another --device, or one of "
              "--lists all the same",

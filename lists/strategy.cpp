@@ -2,45 +2,16 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-
 namespace sfumato::lists {
-namespace {
 
-template <typename Value>
-Value valueNamed(std::string_view name, const std::vector<std::string>& names, std::string_view flag) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    base::fail(base::ExitCode::Usage, "{} {}: unknown: choose {}", flag, name, fmt::join(names, ", "));
-  return static_cast<Value>(found - names.begin());
+const base::Choice<Strategy>& strategies() {
+  static const base::Choice<Strategy> choice{"--lists", {"spinlock", "lockfree", "append", "count"}};
+  return choice;
 }
 
-}  // namespace
-
-const std::vector<std::string>& strategyNames() {
-  static const std::vector<std::string> names = {"spinlock", "lockfree", "append", "count"};
-  return names;
-}
-
-const std::vector<std::string>& onOverflowNames() {
-  static const std::vector<std::string> names = {"grow", "window", "error"};
-  return names;
-}
-
-const std::string& nameOf(Strategy strategy) {
-  return strategyNames()[static_cast<size_t>(strategy)];
-}
-
-const std::string& nameOf(OnOverflow policy) {
-  return onOverflowNames()[static_cast<size_t>(policy)];
-}
-
-Strategy strategyNamed(std::string_view name) {
-  return valueNamed<Strategy>(name, strategyNames(), "--lists");
-}
-
-OnOverflow onOverflowNamed(std::string_view name) {
-  return valueNamed<OnOverflow>(name, onOverflowNames(), "--on-overflow");
+const base::Choice<OnOverflow>& overflowPolicies() {
+  static const base::Choice<OnOverflow> choice{"--on-overflow", {"grow", "window", "error"}};
+  return choice;
 }
 
 ListStatistics& ListStatistics::operator+=(const ListStatistics& other) {

@@ -3,10 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "base/choice.h"
 
 namespace sfumato::lists {
 
@@ -38,13 +36,8 @@ struct ListOptions {
   Observer* observer = nullptr;
 };
 
-const std::vector<std::string>& strategyNames();    // "spinlock", "lockfree", "append", "count"
-const std::vector<std::string>& onOverflowNames();  // "grow", "window", "error"
-const std::string& nameOf(Strategy strategy);
-const std::string& nameOf(OnOverflow policy);
-// Throw Usage, naming the flag --lists or --on-overflow, for another name.
-Strategy strategyNamed(std::string_view name);
-OnOverflow onOverflowNamed(std::string_view name);
+const base::Choice<Strategy>& strategies();          // "spinlock", "lockfree", "append", "count"
+const base::Choice<OnOverflow>& overflowPolicies();  // "grow", "window", "error"
 
 // Lists by length: class 0 is empty, class 1 one node, class k > 1 up to 2^(k-1) nodes and more than half.
 constexpr size_t lengthClasses = 34;

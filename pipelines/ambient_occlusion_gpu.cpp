@@ -44,7 +44,8 @@ gl::Texture resultsOf(gl::Device& device, glm::ivec2 size) {
 
 }  // namespace
 
-gl::ShaderDefines AmbientOcclusion::defines() const {
+gl::ShaderDefines occlusionDefines(OcclusionSize size) {
+  if (size == OcclusionSize::Off) return {};
   return {{"SSAO", std::to_string(pixelsAside(size))}};
 }
 
@@ -87,7 +88,7 @@ AmbientOcclusion drawAmbientOcclusion(gl::Device& device, const AmbientOcclusion
     gl::barrierBefore(gl::Reader::TextureFetch);
     std::swap(results, blurred);
   }
-  return {std::move(results), inputs.options.size};
+  return {std::move(results)};
 }
 
 }  // namespace sfumato::pipelines

@@ -28,12 +28,12 @@ struct AmbientOcclusionInputs {
 // occlusion of exactly 0.
 struct AmbientOcclusion {
   gl::Texture occlusion;
-  OcclusionSize size = OcclusionSize::Full;
 
-  // For programs that light surfaces with shaders/pipelines/accessibility.glsl.
-  gl::ShaderDefines defines() const;
   void bind() const;
 };
+
+// Of programs that light surfaces with shaders/pipelines/accessibility.glsl; none where it is off.
+gl::ShaderDefines occlusionDefines(OcclusionSize size);
 
 // Without random input: the same picture gives the same bits. Costs 16 bytes a result, 16 more while it
 // works.

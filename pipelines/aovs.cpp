@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
-
 namespace sfumato::pipelines {
 namespace {
 
@@ -23,20 +21,10 @@ std::vector<std::string> channelsOf(Aov aov) {
 
 }  // namespace
 
-const std::vector<std::string>& aovNames() {
-  static const std::vector<std::string> names = {"depth",  "normal",    "albedo",      "transmittance",
-                                                 "lights", "fragments", "shadow-nodes"};
-  return names;
-}
-
-const std::string& nameOf(Aov aov) {
-  return aovNames().at(static_cast<size_t>(aov));
-}
-
-Aov aovNamed(const std::string& name) {
-  const auto found = std::ranges::find(aovNames(), name);
-  if (found == aovNames().end()) base::fail(base::ExitCode::Usage, "--aov {}: unknown", name);
-  return static_cast<Aov>(found - aovNames().begin());
+const base::Choice<Aov>& aovKinds() {
+  static const base::Choice<Aov> choice{
+      "--aov", {"depth", "normal", "albedo", "transmittance", "lights", "fragments", "shadow-nodes"}};
+  return choice;
 }
 
 bool isCount(Aov aov) {
@@ -55,7 +43,7 @@ AovImages emptyImages(const AovSet& aovs, int width, int height) {
 }
 
 image::Layer layerOf(Aov aov, image::Image image) {
-  std::string name = nameOf(aov);
+  std::string name = aovKinds().nameOf(aov);
   std::ranges::replace(name, '-', '_');
   return {std::move(name), channelsOf(aov), std::move(image)};
 }

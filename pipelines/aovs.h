@@ -4,9 +4,8 @@
 
 #include <map>
 #include <set>
-#include <string>
-#include <vector>
 
+#include "base/choice.h"
 #include "image/image.h"
 
 namespace sfumato::pipelines {
@@ -29,11 +28,7 @@ enum class Aov {
 using AovSet = std::set<Aov>;
 using AovImages = std::map<Aov, image::Image>;  // a channel each, or three
 
-// As --aov takes them: "depth", "shadow-nodes", ...
-const std::vector<std::string>& aovNames();
-const std::string& nameOf(Aov aov);
-// Throws Usage for another name.
-Aov aovNamed(const std::string& name);
+const base::Choice<Aov>& aovKinds();  // "depth", "shadow-nodes", ...
 
 // Whether it is a number of things, which a heat map shows.
 bool isCount(Aov aov);

@@ -29,10 +29,11 @@ struct Lookups {
 };
 
 struct ShadowFigures {
-  double error = 0;           // the bound that they were built with
-  bool lowered = false;       // they are coarser than was asked for, to fit the budget
-  size_t bytes = 0;           // of texels and knots
-  size_t predictedBytes = 0;  // that were counted beforehand; 0: no need
+  std::vector<int> resolutions;  // texels a side of each light's map; 0: it has none
+  double error = 0;              // the bound that deep maps were built with
+  bool lowered = false;          // they are coarser than was asked for, to fit the budget
+  size_t bytes = 0;              // of texels and knots; of interlaced maps, of the textures that hold them
+  size_t predictedBytes = 0;     // that were counted beforehand; 0: no need
   size_t budgetBytes = 0;
 };
 

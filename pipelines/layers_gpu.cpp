@@ -32,6 +32,14 @@ bool mayBeInside(const lights::Light& light, double reach, const scene::Camera& 
   return glm::distance(eye, light.position) < meshExcess * reach + 2 * camera.nearDistance;
 }
 
+// Of two rectangles; nothing where they have none.
+std::optional<glm::ivec4> commonPart(const glm::ivec4& a, const glm::ivec4& b) {
+  const glm::ivec2 low = glm::max(glm::ivec2(a), glm::ivec2(b));
+  const glm::ivec2 high = glm::min(glm::ivec2(a.x + a.z, a.y + a.w), glm::ivec2(b.x + b.z, b.y + b.w));
+  if (glm::any(glm::greaterThanEqual(low, high))) return {};
+  return glm::ivec4(low, high - low);
+}
+
 deepshadow::InterlacedKind interlacedKind(ShadowKind kind, Storage storage) {
   if (kind == ShadowKind::Opaque) return deepshadow::InterlacedKind::Opaque;
   return storage == Storage::Table ? deepshadow::InterlacedKind::Thesis
@@ -57,7 +65,7 @@ LayeredFrame::LayeredFrame(const SceneGpu& scene, const scene::Camera& camera, i
       passBlock_(scene.device(), "layer pass", sizeof(shared::ResolveParams)) {
   viewBlock_.writeValue(view_.params);
   const auto faces = buildShadows(usual.lightsOnce);
-  occlusion_ = scene.drawOcclusion(view_, quality.ambientOcclusion);
+  occlusion_ = scene.drawOcclusion(view_, quality);
   const Profiler::Scope time(device().profiler(), "light lists");
   lightLists_.emplace(device(), lights::LightListInputs{scene.lights(), faces, viewBlock_, width, height,
                                                         std::nullopt, nullptr, quality.lists});
@@ -74,28 +82,39 @@ std::vector<lights::ShadowFaces> LayeredFrame::buildShadows(bool lightsOnce) {
   }
   interlaced_.emplace();
   ShadowInputs inputs = scene_.shadowInputs(view_, quality_);
-  if (lightsOnce && scene_.volumes().empty()) {
+  const bool inTurns = lightsOnce && scene_.volumes().empty();
+  const size_t count = none.size();
+  auto plan = deepshadow::planOf(
+      device(), interlacedInputs(inputs, 0, count), inputs.budget,
+      inTurns ? deepshadow::InterlacedStand::InTurns : deepshadow::InterlacedStand::Together);
+  inputs.resolutions = plan.resolutions;
+  statistics.shadowMaps = {
+      .resolutions = std::move(plan.resolutions), .lowered = plan.lowered, .budgetBytes = plan.budgetBytes};
+  if (inTurns) {
     turns_ = std::move(inputs);
-    for (size_t i = 0; i < none.size(); ++i)
+    for (size_t i = 0; i < count; ++i)
       if (scene_.lights()[i].castsShadow && turns_->resolutions[i] > 0)
         none[i] = {0, scene::faceCount(scene_.lights()[i])};
     return none;
   }
-  buildInterlaced(inputs, 0, scene_.lights().size());
+  interlaced_->build(device(), interlacedInputs(inputs, 0, count));
   return facesOf(*interlaced_);
 }
 
-void LayeredFrame::buildInterlaced(const ShadowInputs& inputs, size_t first, size_t count) {
-  interlaced_->build(device(), {.lights = std::span(scene_.lights()).subspan(first, count),
-                                .resolutions = std::span(inputs.resolutions).subspan(first, count),
-                                .casters = inputs.casters,
-                                .receivers = inputs.receivers,
-                                .castingPoints = inputs.castingPoints,
-                                .kind = interlacedKind(shadowKind_, options().storage)});
+deepshadow::InterlacedInputs LayeredFrame::interlacedInputs(const ShadowInputs& inputs, size_t first,
+                                                            size_t count) const {
+  return {.lights = std::span(scene_.lights()).subspan(first, count),
+          .resolutions = std::span(inputs.resolutions).subspan(first, count),
+          .casters = inputs.casters,
+          .receivers = inputs.receivers,
+          .castingPoints = inputs.castingPoints,
+          .kind = interlacedKind(shadowKind_, options().storage)};
 }
 
 void LayeredFrame::takeTurn(size_t number) {
-  if (turns_) buildInterlaced(*turns_, static_cast<size_t>(lightLists_->order()[number]), 1);
+  if (turns_)
+    interlaced_->build(device(),
+                       interlacedInputs(*turns_, static_cast<size_t>(lightLists_->order()[number]), 1));
 }
 
 size_t LayeredFrame::pixels() const {
@@ -121,7 +140,7 @@ gl::ShaderDefines LayeredFrame::interlaceDefines() const {
 }
 
 gl::ShaderDefines LayeredFrame::glowDefines() const {
-  return occlusion_ ? gl::joined(lightingDefines(), occlusion_->defines()) : lightingDefines();
+  return gl::joined(lightingDefines(), occlusionDefines(scene_.occlusionOf(quality_)));
 }
 
 const lights::Light& LayeredFrame::light(size_t number) const {
@@ -169,16 +188,17 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
                                              &target.depth};
   if (target.id) colours.push_back(&*target.id);
   const gl::Framebuffer framebuffer(colours, &target.depthTest);
+  const auto& area = what.mask.area;
   for (int i = 0; i < 3; ++i) {
     if (options().storage == Storage::Table)
-      framebuffer.clearColour(i, glm::vec4(0.f));
+      framebuffer.clearColour(i, glm::vec4(0.f), area);
     else
-      framebuffer.clearColour(i, glm::uvec4(0));
+      framebuffer.clearColour(i, glm::uvec4(0), area);
   }
-  framebuffer.clearColour(3, nothingSeen);
-  if (target.id) framebuffer.clearColour(4, glm::uvec4(0));
-  framebuffer.clearDepth(1.f);
-  framebuffer.clearStencil(0);
+  framebuffer.clearColour(3, nothingSeen, area);
+  if (target.id) framebuffer.clearColour(4, glm::uvec4(0), area);
+  framebuffer.clearDepth(1.f, area);
+  framebuffer.clearStencil(0, area);
 
   const auto drawSurfaces = [&](Layer surfaces, gl::ShaderDefines defines) {
     statistics.geometryPasses += surfaces == Layer::Opaque && quality_.depthsFirst ? 2 : 1;
@@ -199,8 +219,9 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
         .program = &device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
         .target = &framebuffer,
         .viewport = {0, 0, view_.width, view_.height},
+        .scissor = area,
         .depthTest = true,
-        .stencil = what.stencil};
+        .stencil = what.mask.stencil};
     if (surfaces == Layer::Opaque) {
       drawOpaque(device(), scene_.geometry(), state, target.depthTest, quality_.depthsFirst);
       return;
@@ -218,7 +239,8 @@ void LayeredFrame::draw(const SurfaceLayer& target, const LayerDraw& what) {
 
 void LayeredFrame::drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params) {
   const lights::Light& light = this->light(number);
-  const auto scissor = lights::lightScissor(light, view_.params);
+  auto scissor = lights::lightScissor(light, view_.params);
+  if (scissor && state.scissor) scissor = commonPart(*scissor, *state.scissor);
   if (!scissor) return;
   state.scissor = scissor;
   shared::ResolveParams ofLight = params;
@@ -252,15 +274,16 @@ gl::Texture LayeredFrame::light(const SurfaceLayer& layer) {
 }
 
 void LayeredFrame::addLights(const SurfaceLayer& layer, const gl::Framebuffer& target, bool finished,
-                             const std::optional<gl::StencilTest>& stencil) {
+                             const Mask& mask) {
   gl::ShaderDefines defines = lightingDefines();
   if (finished) defines.emplace_back("FINISHED", "1");
   const gl::DrawState state{
       .program = &device().program({"pipelines/light_volume.vert", "pipelines/light_volume.frag"}, defines),
       .target = &target,
       .viewport = {0, 0, view_.width, view_.height},
+      .scissor = mask.area,
       .blend = gl::Blend::Add,
-      .stencil = stencil};
+      .stencil = mask.stencil};
   for (size_t i = 0; i < lightCount(); ++i) {
     takeTurn(i);
     layer.bind();

@@ -38,12 +38,18 @@ struct SurfaceLayer {
   void bind() const;
 };
 
+// Where something is drawn: what the stencil lets pass in a rectangle of the image; without them everywhere.
+struct Mask {
+  std::optional<gl::StencilTest> stencil;
+  std::optional<glm::ivec4> area;  // x, y from the bottom, width, height
+};
+
 struct LayerDraw {
   enum class Surfaces { Opaque, Translucent, Interlaced };
   Surfaces surfaces = Surfaces::Opaque;
   const SurfaceLayer* before = nullptr;  // only what is before these
   const SurfaceLayer* behind = nullptr;  // only what is behind these, by depth and order; they have numbers
-  std::optional<gl::StencilTest> stencil;
+  Mask mask;
   std::optional<size_t> instance;  // of the scene: only this one, translucent
   gl::Cull cull = gl::Cull::None;  // of that instance's faces
 };
@@ -71,13 +77,13 @@ class LayeredFrame {
 
   // An empty layer.
   SurfaceLayer layer(const std::string& label, bool numbered = false) const;
-  // Clears the layer and draws the nearest surfaces into it.
+  // Clears the layer, where the mask's area is, and draws the nearest surfaces into it.
   void draw(const SurfaceLayer& target, const LayerDraw& what);
   // Light on a layer's surfaces; exact: radiance, 16 bytes a pixel; table storage: see layer.glsl, 4 bytes.
   gl::Texture light(const SurfaceLayer& layer);
   // Adds what lights give to a layer's surfaces; `finished`: as radiance, in table storage, too.
   void addLights(const SurfaceLayer& layer, const gl::Framebuffer& target, bool finished,
-                 const std::optional<gl::StencilTest>& stencil = {});
+                 const Mask& mask = {});
 
   Walk startWalk() const;
   // Through the smoke up to the layer's surfaces and past them; `last`: and no further. How many rays met
@@ -118,9 +124,10 @@ class LayeredFrame {
  private:
   std::vector<lights::ShadowFaces> buildShadows(bool lightsOnce);
   // Of lights of the scene.
-  void buildInterlaced(const ShadowInputs& inputs, size_t first, size_t count);
+  deepshadow::InterlacedInputs interlacedInputs(const ShadowInputs& inputs, size_t first, size_t count) const;
   const lights::Light& light(size_t number) const;
-  // Draws what a light reaches, with a state whose program starts with shaders/pipelines/light_volume.vert.
+  // Draws what a light reaches, within the state's scissor, with a state whose program starts with
+  // shaders/pipelines/light_volume.vert.
   void drawLightVolume(size_t number, gl::DrawState state, const shared::ResolveParams& params);
 
   const SceneGpu& scene_;

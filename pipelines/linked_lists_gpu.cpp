@@ -26,8 +26,41 @@ namespace {
 // A dispatch does RESOLVE_WORK_LIMIT of a pixel's work; no sane frame needs this many.
 constexpr int maxResolveDispatches = 10000;
 
-gl::ShaderDefines resolveDefines(const SceneGpu& scene, size_t samples, const Quality& quality) {
-  return gl::joined({{"SAMPLES", std::to_string(samples)}}, scene.lightingDefines(quality));
+// Of the G-buffer's pixels; without surfaces there are no edges.
+int samplesOf(const SceneGpu& scene, const Quality& quality) {
+  if (scene.geometry().triangles() == 0) return 1;
+  return std::clamp(quality.samples, 1, std::min(MAX_SAMPLES, scene.device().limits().samples));
+}
+
+int smokeBlockSideOf(const SceneGpu& scene, const shared::ViewParams& view, const Quality& quality) {
+  return quality.walkedSmokeNodes > 0 ? 1 : smokeBlockSide(scene.volumes().extents(), view, quality);
+}
+
+// What a frame's rays are walked for.
+struct WalkOptions {
+  size_t samples;
+  int smokeBlockSide;  // pixels
+  bool countLookups;
+  bool deep;
+
+  bool takesBlocks() const { return smokeBlockSide > 1 && !deep; }
+};
+
+// Of programs that march through smoke.
+gl::ShaderDefines marchDefines(const SceneGpu& scene, const Quality& quality, const WalkOptions& options) {
+  gl::ShaderDefines defines =
+      gl::joined({{"SAMPLES", std::to_string(options.samples)}}, scene.lightingDefines(quality));
+  if (options.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  return defines;
+}
+
+// Of the program that walks the rays.
+gl::ShaderDefines resolveDefines(const SceneGpu& scene, const Quality& quality, const WalkOptions& options) {
+  gl::ShaderDefines defines = marchDefines(scene, quality, options);
+  if (options.takesBlocks()) defines.emplace_back("SMOKE_BLOCKS", "1");
+  if (quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
+  if (options.deep) defines.emplace_back("DEEP", "1");
+  return gl::joined(defines, occlusionDefines(scene.occlusionOf(quality)));
 }
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -217,12 +250,12 @@ size_t blocksAlong(int first, int pixels, int side) {
   return static_cast<size_t>((first + pixels + side - 1) / side - first / side);
 }
 
-SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, int side, gl::ShaderDefines defines,
+SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, const gl::ShaderDefines& defines,
                         FrameStatistics& statistics) {
   const Profiler::Scope time(device.profiler(), "smoke");
+  const int side = inputs.smokeBlockSide;
   const size_t count = blocksAlong(inputs.window.x, inputs.window.width, side) *
                        blocksAlong(inputs.window.y, inputs.window.height, side);
-  if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
   const gl::Program& program = device.program({"pipelines/smoke_blocks.comp"}, defines);
   const size_t mostKnots = std::min(static_cast<size_t>(device.limits().textureBufferTexels),
                                     static_cast<size_t>(device.limits().storageBlockBytes) / knotBytes);
@@ -254,17 +287,13 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality);
+  const WalkOptions options{samples, inputs.smokeBlockSide, inputs.countLookups, frame.deep.has_value()};
   SmokeBlocks smoke;
-  if (inputs.smokeBlockSide > 1 && !frame.deep) {
-    smoke = marchBlocks(device, inputs, inputs.smokeBlockSide, defines, frame.statistics);
-    defines.emplace_back("SMOKE_BLOCKS", "1");
-  }
-  if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
-  if (inputs.quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
-  if (frame.deep) defines.emplace_back("DEEP", "1");
-  if (inputs.occlusion) defines = gl::joined(defines, inputs.occlusion->defines());
-  const gl::Program& program = device.program({"pipelines/resolve.comp"}, defines);
+  if (options.takesBlocks())
+    smoke =
+        marchBlocks(device, inputs, marchDefines(inputs.scene, inputs.quality, options), frame.statistics);
+  const gl::Program& program =
+      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.scene, inputs.quality, options));
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
   Walk walk(device, inputs, rays);
   gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec4) : 0);
@@ -331,8 +360,7 @@ class TilePainter {
     useView(tile, tile);
     const GBuffer gbuffer = [&] {
       const Profiler::Scope time(device_.profiler(), "opaque G-buffer");
-      const int samples =
-          std::clamp(inputs_.quality.samples, 1, std::min(MAX_SAMPLES, device_.limits().samples));
+      const int samples = samplesOf(inputs_.scene, inputs_.quality);
       const bool baseColour = frame_.aovs.contains(Aov::Albedo);
       return drawGBuffer(device_, {inputs_.scene.geometry(), view_, inputs_.width, inputs_.height, samples,
                                    tile, baseColour, inputs_.quality.depthsFirst});
@@ -427,13 +455,12 @@ class TilePainter {
 
 }  // namespace
 
-LinkedListsPipeline::LinkedListsPipeline(gl::Device& device, const scene::Scene& scene,
-                                         std::span<const volumes::Medium> media,
-                                         const volumes::GridOptions& gridOptions)
-    : Pipeline(device, scene, media, gridOptions) {
-  // The largest program of a frame that is anti-aliased; the small ones are built when they are first used.
-  const int samples = std::min(MAX_SAMPLES, device.limits().samples);
-  device.program({"pipelines/resolve.comp"}, resolveDefines(scene_, static_cast<size_t>(samples), Quality{}));
+void LinkedListsPipeline::prepare(const scene::Camera& camera, int width, int height, const Quality& quality,
+                                  const FrameOptions& options) {
+  const int side = smokeBlockSideOf(scene_, scene::cameraView(camera, width, height), quality);
+  const WalkOptions walk{static_cast<size_t>(samplesOf(scene_, quality)), side, options.countLookups,
+                         options.deep};
+  scene_.device().program({"pipelines/resolve.comp"}, resolveDefines(scene_, quality, walk));
 }
 
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
@@ -448,9 +475,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   }
   for (const size_t light : options.deepShadows)
     frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
-  const auto occlusion = scene_.drawOcclusion(view, quality.ambientOcclusion);
-  const bool walked = quality.walkedSmokeNodes > 0;
-  const int side = walked ? 1 : smokeBlockSide(scene_.volumes().extents(), view.params, quality);
+  const auto occlusion = scene_.drawOcclusion(view, quality);
   const TileInputs inputs{scene_,
                           shadows,
                           quality,
@@ -458,7 +483,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
                           view.params,
                           width,
                           height,
-                          side,
+                          smokeBlockSideOf(scene_, view.params, quality),
                           options.countLookups,
                           deepLimits};
   TilePainter painter(scene_.device(), inputs, options.windowPixels, frame);

@@ -12,14 +12,15 @@ namespace sfumato::pipelines {
 
 class LinkedListsPipeline : public Pipeline {
  public:
-  // Uploads what the scene holds and compiles the shaders: the start-up, apart from the frame.
-  LinkedListsPipeline(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
-                      const volumes::GridOptions& gridOptions = {});
+  using Pipeline::Pipeline;
 
+  void prepare(const scene::Camera& camera, int width, int height, const Quality& quality,
+               const FrameOptions& options) override;
   // Draws one frame, tile by tile (pipelines/tiles.h): each pixel is the same bits whatever the device can
-  // hold at a time. Bytes: 12 a pixel on the host; of a tile 40 a sample for the G-buffer, 32 a ray, 52 a
-  // translucent fragment and those of its light lists; and the deep shadow maps. Throws Memory when the maps,
-  // or the lists of a single pixel, are over the device's limits.
+  // hold at a time, but where a ray through smoke stands for pixels of two tiles. Bytes: 12 a pixel on the
+  // host; of a tile 40 a sample for the G-buffer, 32 a ray, 52 a translucent fragment and those of its light
+  // lists; and the deep shadow maps. Throws Memory when the maps, or the lists of a single pixel, are over
+  // the device's limits.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
 

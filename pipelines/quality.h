@@ -19,16 +19,17 @@ enum class ShadowFilter { Nearest, Bilinear, Soft };
 
 struct Quality {
   int samples = 4;                 // of a pixel where edges cross it: 1, or 4
-  int shadowResolution = 1024;     // texels a side of a deep shadow map, at most
+  int shadowResolution = 1024;     // texels a side of a shadow map, at most
   double stepVoxels = 1.0;         // of every march through smoke, in voxels of the finest volume
   double shadowError = 1.0 / 512;  // bound of the error of a deep shadow map's transmittance; 0: none
   // Otherwise maps of lights that cover little of the image are smaller (shadow_resolution.h), and all are
   // where they would not fit; the same of the error.
   bool exactShadowResolution = true;
   bool exactShadowError = true;
-  size_t shadowMemory = 0;  // bytes of all maps together; 0: what the device reads
-  // Smoke is marched once for 2 x 2 or 4 x 4 pixels where the rays are at most so many voxels apart then; 0: for
-  // every pixel. Only the core pipeline asks.
+  size_t shadowMemory =
+      0;  // bytes of all maps that stand at once, deep or interlaced; 0: what the device holds
+  // Smoke is marched once for 2 x 2 or 4 x 4 pixels where the rays are at most so many voxels apart then; 0:
+  // for every pixel. Only the core pipeline asks.
   double smokeRaySpacing = 0;
   bool halfResolutionSmoke = false;  // for 2 x 2 pixels at least
   bool depthsFirst = false;          // opaque surfaces are drawn twice, depths alone first

@@ -28,14 +28,17 @@ std::vector<size_t> backToFront(const SceneGpu& scene, const FrameView& view) {
   return order;
 }
 
+}  // namespace
+
 std::vector<LayerDraw> translucentPasses(const LayeredFrame& frame, const FinishedLight& finished) {
   const LayerDraw all{
-      .surfaces = LayerDraw::Surfaces::Translucent, .before = &finished.seen, .stencil = drawn};
+      .surfaces = LayerDraw::Surfaces::Translucent, .before = &finished.seen, .mask = {drawn}};
   if (!frame.scene().geometry().has(Layer::Translucent)) return {};
   if (frame.options().passes == Passes::One) return {all};
   std::vector<LayerDraw> passes;
   const auto add = [&](size_t instance, gl::Cull cull) {
     passes.push_back(all);
+    passes.back().mask.area = frame.view().areaOf(instance);
     passes.back().instance = instance;
     passes.back().cull = cull;
   };
@@ -46,17 +49,21 @@ std::vector<LayerDraw> translucentPasses(const LayeredFrame& frame, const Finish
   return passes;
 }
 
+namespace {
+
 enum class Segment { BehindLayer, ToCamera };
 
-// What comes through the smoke of a segment of each ray, and through the layer's surface before it. How many
-// rays have one.
+// What comes through the smoke of a segment of each ray of an area, all without one, and through the layer's
+// surface before it. How many rays have one.
 size_t gather(LayeredFrame& frame, const SurfaceLayer& layer, const FinishedLight& finished, Segment segment,
-              Walk& walk) {
+              const std::optional<glm::ivec4>& area, Walk& walk) {
   const Profiler::Scope time(frame.device().profiler(), "walk");
   gl::ShaderDefines defines = frame.lightingDefines();
   if (segment == Segment::ToCamera) defines.emplace_back("TO_CAMERA", "1");
   shared::ResolveParams params = frame.params();
   params.options.x = ++walk.layers;
+  params.area = area.value_or(glm::ivec4(0, 0, frame.view().width, frame.view().height));
+  params.options.w = params.area.z * params.area.w;
   return frame.dispatchWalk(
       frame.device().program({"pipelines/reentrant_segment.comp"}, defines), params,
       [&] {
@@ -83,8 +90,8 @@ FinishedLight noLight(const LayeredFrame& frame) {
   return light;
 }
 
-void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* background,
-               const std::optional<gl::StencilTest>& mask, const FinishedLight& light) {
+void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* background, const Mask& mask,
+               const FinishedLight& light) {
   const Profiler::Scope time(frame.device().profiler(), "lighting");
   const gl::Framebuffer start(std::vector<const gl::Texture*>{&light.radiance, &light.seen.depth},
                               &layer.depthTest);
@@ -93,7 +100,8 @@ void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* backg
                                          frame.glowDefines()),
       .target = &start,
       .viewport = {0, 0, frame.view().width, frame.view().height},
-      .stencil = mask};
+      .scissor = mask.area,
+      .stencil = mask.stencil};
   frame.bind(frame.params());
   layer.bind();
   gl::setDrawState(state);
@@ -111,20 +119,24 @@ void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* backg
   gl::drawGenerated(frame.device(), 3, 1);
 }
 
+void drawOver(LayeredFrame& frame, const LayerDraw& pass, const SurfaceLayer& layer,
+              const FinishedLight& finished, Walk& walk) {
+  frame.draw(layer, pass);
+  if (gather(frame, layer, finished, Segment::BehindLayer, pass.mask.area, walk) > 0)
+    shadeOver(frame, layer, &walk, {whereDrawn, pass.mask.area}, finished);
+}
+
 Frame ReentrantPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                 const FrameOptions& options) {
   LayeredFrame frame(scene_, camera, width, height, quality);
   const FinishedLight finished = noLight(frame);
   const SurfaceLayer layer = frame.layer("layer");
-  frame.draw(layer, {.stencil = drawn});
-  shadeOver(frame, layer, nullptr, whereDrawn, finished);
+  frame.draw(layer, {.mask = {drawn}});
+  shadeOver(frame, layer, nullptr, {whereDrawn}, finished);
   Walk walk = frame.startWalk();
-  for (const LayerDraw& pass : translucentPasses(frame, finished)) {
-    frame.draw(layer, pass);
-    if (gather(frame, layer, finished, Segment::BehindLayer, walk) > 0)
-      shadeOver(frame, layer, &walk, whereDrawn, finished);
-  }
-  gather(frame, layer, finished, Segment::ToCamera, walk);
+  for (const LayerDraw& pass : translucentPasses(frame, finished))
+    drawOver(frame, pass, layer, finished, walk);
+  gather(frame, layer, finished, Segment::ToCamera, {}, walk);
   options.onTile();
   return frame.finish(walk);
 }

@@ -19,6 +19,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "gl/texture.h"
 #include "pipelines/layers_gpu.h"
@@ -46,11 +47,19 @@ struct FinishedLight {
 
 FinishedLight noLight(const LayeredFrame& frame);
 
+// What is drawn after the opaque surfaces, in this order; that of one object within the rectangle in which it
+// may be seen, outside which its passes leave everything as it is.
+std::vector<LayerDraw> translucentPasses(const LayeredFrame& frame, const FinishedLight& finished);
+
 // Puts the light of a layer's surfaces, and the background they let through where there are rays with it, in
 // the place of what the mask passes. Of the layer's stencil, where 1 is set by `drawn`.
 constexpr gl::StencilTest drawn{.reference = 1, .passed = gl::StencilChange::Replace};
 constexpr gl::StencilTest whereDrawn{.compare = gl::Compare::Equal, .reference = 1};
-void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* background,
-               const std::optional<gl::StencilTest>& mask, const FinishedLight& light);
+void shadeOver(LayeredFrame& frame, const SurfaceLayer& layer, const Walk* background, const Mask& mask,
+               const FinishedLight& light);
+
+// Draws a pass into the layer, and what it shows over the finished light.
+void drawOver(LayeredFrame& frame, const LayerDraw& pass, const SurfaceLayer& layer,
+              const FinishedLight& finished, Walk& walk);
 
 }  // namespace sfumato::pipelines

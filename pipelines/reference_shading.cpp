@@ -159,8 +159,7 @@ glm::dvec3 brdf(const Reflector& reflector, const glm::dvec3& toViewer, const gl
 }
 
 glm::dvec3 ambientAlbedo(const Reflector& reflector) {
-  const glm::dvec3 mirrored = reflector.alpha * reflector.specular0;
-  return reflector.diffuse * (1 - largest(mirrored)) + mirrored;
+  return reflector.diffuse * (1 - largest(reflector.specular0)) + reflector.alpha * reflector.specular0;
 }
 
 Illumination illuminate(const Light& light, const glm::dvec3& pWorld) {

@@ -49,7 +49,7 @@ Reflector reflectorAt(const scene::Scene& scene, const scene::Material& material
 // away from the surface.
 glm::dvec3 brdf(const Reflector& reflector, const glm::dvec3& toViewer, const glm::dvec3& toLight);
 
-// What comes back of a radiance of 1 from all around, per channel: d (1 - max a F0) + a F0.
+// What comes back of a radiance of 1 from all around, per channel: d (1 - max F0) + a F0.
 glm::dvec3 ambientAlbedo(const Reflector& reflector);
 
 // A light as a point sees it, shadows aside.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipelines/gbuffer_gpu.h"
+#include "pipelines/image_bounds.h"
 #include "pipelines/shadow_resolution.h"
 #include "scene/camera_view.h"
 #include "scene/visible_hull.h"
@@ -49,6 +50,26 @@ FrameView viewOf(const scene::Scene& scene, const scene::Camera& camera, int wid
   return view;
 }
 
+glm::ivec4 FrameView::areaOf(size_t instance) const {
+  const std::vector<glm::dvec3>& points = seen[instance];
+  const ImageBounds bounds = boundsOnImage(points, camera);
+  // What floats of vertices and matrices may be off, in pixels at the nearest point; and those that it
+  // touches.
+  constexpr double rounding = 1e-6;
+  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
+  double margin = 1;
+  for (const glm::dvec3& p : points) {
+    const double off = rounding * (glm::length(p) + glm::length(viewFromWorld[3]));
+    margin = std::max(margin,
+                      1 + off * height * imageHeightsPerMetre(-(viewFromWorld * glm::dvec4(p, 1)).z, camera));
+  }
+  const glm::dvec2 size(width, height);
+  const auto pixels = [&](const glm::dvec2& place) { return place * size.y + size / 2.0; };
+  const glm::ivec2 low(glm::clamp(glm::floor(pixels(bounds.low) - margin), glm::dvec2(0), size - 1.0));
+  const glm::ivec2 high(glm::clamp(glm::ceil(pixels(bounds.high) + margin), glm::dvec2(low + 1), size));
+  return {low, high - low};
+}
+
 SceneGpu::SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<const volumes::Medium> media,
                    const volumes::GridOptions& gridOptions)
     : device_(device), scene_(scene), geometry_(device, scene), volumes_(device, media, gridOptions) {
@@ -77,9 +98,12 @@ shared::ResolveParams SceneGpu::lightingParams(const Quality& quality, int direc
   return params;
 }
 
-std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view,
-                                                        const AmbientOcclusionOptions& options) const {
-  if (options.size == OcclusionSize::Off || scene_.ambient == glm::dvec3(0)) return std::nullopt;
+OcclusionSize SceneGpu::occlusionOf(const Quality& quality) const {
+  return scene_.ambient == glm::dvec3(0) ? OcclusionSize::Off : quality.ambientOcclusion.size;
+}
+
+std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view, const Quality& quality) const {
+  if (occlusionOf(quality) == OcclusionSize::Off) return std::nullopt;
   gl::Buffer viewBlock(device_, "camera view", sizeof(shared::ViewParams));
   viewBlock.writeValue(view.params);
   const GBuffer gbuffer = [&] {
@@ -87,8 +111,8 @@ std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view,
     return drawGBuffer(
         device_, {.geometry = geometry_, .view = viewBlock, .width = view.width, .height = view.height});
   }();
-  return drawAmbientOcclusion(device_,
-                              {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height, options});
+  return drawAmbientOcclusion(device_, {gbuffer.depth, gbuffer.surface0, viewBlock, view.width, view.height,
+                                        quality.ambientOcclusion});
 }
 
 ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& quality) const {
@@ -102,7 +126,10 @@ ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& qualit
   if (geometry_.has(Layer::ShadowLists))
     casters.listed = [this] { geometry_.draw(Layer::ShadowLists, false); };
   return {casters, all.points, scene::boundingPoints(scene_, mediaBoxes_),
-          shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality)};
+          shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality),
+          deepshadow::MapBudget{.bytes = quality.shadowMemory,
+                                .lowerResolution = !quality.exactShadowResolution,
+                                .loosenError = !quality.exactShadowError}};
 }
 
 deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& quality,
@@ -115,9 +142,7 @@ deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& qu
                                     .receivers = inputs.receivers,
                                     .castingPoints = inputs.castingPoints,
                                     .plan = {inputs.resolutions, quality.shadowError},
-                                    .budget = {.bytes = quality.shadowMemory,
-                                               .lowerResolution = !quality.exactShadowResolution,
-                                               .loosenError = !quality.exactShadowError},
+                                    .budget = inputs.budget,
                                     .stepVoxels = quality.stepVoxels,
                                     .lists = quality.lists,
                                     .linkedSmokeNodes = quality.walkedSmokeNodes,
@@ -125,7 +150,8 @@ deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& qu
 }
 
 ShadowFigures figuresOf(const deepshadow::Maps& shadows) {
-  return {.error = shadows.plan().error,
+  return {.resolutions = shadows.plan().resolutions,
+          .error = shadows.plan().error,
           .lowered = shadows.lowered(),
           .bytes = shadows.bytes(),
           .predictedBytes = shadows.predictedBytes(),

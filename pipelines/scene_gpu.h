@@ -30,6 +30,10 @@ struct FrameView {
   // Of the whole image, with clip planes close around the surfaces that are seen: it shows the same, and the
   // depth test tells more depths apart. With what scales their depths below 1.
   shared::ViewParams params{};
+
+  // The pixels in which an instance may be seen, of which something is: x, y from the bottom, width, height.
+  // Never too small.
+  glm::ivec4 areaOf(size_t instance) const;
 };
 
 FrameView viewOf(const scene::Scene& scene, const scene::Camera& camera, int width, int height);
@@ -40,6 +44,7 @@ struct ShadowInputs {
   std::vector<glm::dvec3> receivers;      // their hull holds what is seen
   std::vector<glm::dvec3> castingPoints;  // and theirs what casts shadows
   std::vector<int> resolutions;           // of each light: shadow_resolution.h
+  deepshadow::MapBudget budget;
 };
 
 class SceneGpu {
@@ -58,10 +63,10 @@ class SceneGpu {
   gl::ShaderDefines lightingDefines(const Quality& quality) const;
   // What they are told; rays and samples are the pass's own.
   shared::ResolveParams lightingParams(const Quality& quality, int directionalLights) const;
-  // Of the whole image at once, from a G-buffer of its own; nothing where none is asked for, or where there
-  // is no ambient light to take from.
-  std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view,
-                                                const AmbientOcclusionOptions& options) const;
+  // What occlusion such frames have: none where there is no ambient light to take from.
+  OcclusionSize occlusionOf(const Quality& quality) const;
+  // Of the whole image at once, from a G-buffer of its own, where there is any.
+  std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view, const Quality& quality) const;
   ShadowInputs shadowInputs(const FrameView& view, const Quality& quality) const;
   // `linkedNodes`: see deepshadow::MapInputs.
   deepshadow::Maps buildShadows(const FrameView& view, const Quality& quality, size_t linkedNodes = 0) const;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lights/light_reach.h"
+#include "pipelines/image_bounds.h"
 #include "scene/light_faces.h"
 #include "scene/visible_hull.h"
 
@@ -56,13 +57,6 @@ Bounds litPart(const lights::Light& light, const Bounds& box) {
   return lit;
 }
 
-// On the image, in units of its height, from its middle.
-dvec2 onImage(const dvec3& pWorld, const scene::Camera& camera, const glm::dmat4& viewFromWorld) {
-  const dvec3 p(viewFromWorld * glm::dvec4(pWorld, 1));
-  if (camera.orthographic) return dvec2(p) / (2 * camera.yMagnitude);
-  return dvec2(p) / (2 * std::tan(camera.yfov / 2) * std::max(-p.z, 1e-12));
-}
-
 // Corners of what the light may reach of the parts, cut to the camera's view; nothing where it reaches none
 // of them.
 std::optional<std::vector<dvec3>> seenAndLit(const lights::Light& light, std::span<const Bounds> parts,
@@ -81,15 +75,8 @@ std::optional<std::vector<dvec3>> seenAndLit(const lights::Light& light, std::sp
 }
 
 double pixelsAround(const std::vector<dvec3>& points, const scene::Camera& camera, int width, int height) {
-  const glm::dmat4 viewFromWorld = glm::inverse(camera.worldFromView);
-  dvec2 low(scene::infinity);
-  dvec2 high(-scene::infinity);
-  for (const dvec3& p : points) {
-    const dvec2 place = onImage(p, camera, viewFromWorld);
-    low = glm::min(low, place);
-    high = glm::max(high, place);
-  }
-  const dvec2 size = glm::max(high - low, dvec2(0));
+  const ImageBounds bounds = boundsOnImage(points, camera);
+  const dvec2 size = glm::max(bounds.high - bounds.low, dvec2(0));
   return std::min(std::max(size.x, size.y) * height, double(std::max(width, height)));
 }
 

@@ -22,9 +22,8 @@ void checkExtent(const VolumePlacement& placement, const glm::dmat4& worldFromIn
                placement.file);
 }
 
-volumes::Fire readFire(const VolumePlacement& placement) {
-  volumes::DensityGrid grid =
-      volumes::readVdb(placement.file, placement.fire.gridName, volumes::usualVdbBytes, "--fire");
+volumes::Fire readFire(const VolumePlacement& placement, const volumes::VdbReader& file) {
+  volumes::DensityGrid grid = file.read(placement.fire.gridName, volumes::usualVdbBytes, "--fire");
   const glm::dmat4 worldFromIndex = placement.worldFromGridWorld * grid.worldFromIndex;
   checkExtent(placement, worldFromIndex);
   volumes::Fire fire =
@@ -42,14 +41,15 @@ std::vector<volumes::Medium> readMedia(const Scene& scene) {
   std::vector<volumes::Medium> media;
   for (const VolumePlacement& placement : scene.volumes) {
     volumes::Medium medium;
-    medium.grid = volumes::readVdb(placement.file, placement.gridName);
+    const volumes::VdbReader file(placement.file);
+    medium.grid = file.read(placement.gridName);
     medium.worldFromIndex = placement.worldFromGridWorld * medium.grid.worldFromIndex;
     medium.scale = placement.scale;
     medium.extinctionColour = placement.extinctionColour;
     medium.albedo = placement.albedo;
     medium.g = placement.g;
     checkExtent(placement, medium.worldFromIndex);
-    if (!placement.fire.gridName.empty()) medium.fire = readFire(placement);
+    if (!placement.fire.gridName.empty()) medium.fire = readFire(placement, file);
     media.push_back(std::move(medium));
   }
   return media;

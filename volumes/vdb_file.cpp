@@ -14,7 +14,6 @@
 #include <streambuf>
 
 #include "base/file.h"
-#include "volumes/vdb_layout.h"
 
 namespace sfumato::volumes {
 namespace {
@@ -258,13 +257,15 @@ openvdb::FloatGrid::Ptr toVdb(const DensityGrid& grid) {
 
 }  // namespace
 
-DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes,
-                    const std::string& option) {
-  const std::vector<std::byte> file = base::readFile(path);
-  const VdbDirectory directory = readVdbDirectory(file, path.string());
-  const VdbEntry& entry = chooseGrid(directory, path.string(), gridName, option);
-  const std::string place = fmt::format("{}: grid \"{}\"", path.string(), shown(entry.shownName));
-  const VdbGridLayout layout = layOutVdbGrid(file, path.string(), directory, entry);
+VdbReader::VdbReader(std::filesystem::path path)
+    : path_(std::move(path)),
+      file_(base::readFile(path_)),
+      directory_(readVdbDirectory(file_, path_.string())) {}
+
+DensityGrid VdbReader::read(const std::string& gridName, size_t maxBytes, const std::string& option) const {
+  const VdbEntry& entry = chooseGrid(directory_, path_.string(), gridName, option);
+  const std::string place = fmt::format("{}: grid \"{}\"", path_.string(), shown(entry.shownName));
+  const VdbGridLayout layout = layOutVdbGrid(file_, path_.string(), directory_, entry);
   if (layout.gridClass == "level set")
     fail(ExitCode::Input, "{} is a level set, which has distances, not densities: convert it to a fog volume",
          place);
@@ -277,7 +278,7 @@ DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridNa
   openvdb::initialize();
   openvdb::FloatTree tree(0.f);
   try {
-    readTree(tree, file, directory, layout);
+    readTree(tree, file_, directory_, layout);
   } catch (const std::bad_alloc&) {
     fail(ExitCode::Memory, "{} does not fit in memory: crop it, or resample it to larger voxels", place);
   } catch (const std::exception& error) {
@@ -323,8 +324,12 @@ void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* co
 
 namespace sfumato::volumes {
 
-DensityGrid readVdb(const std::filesystem::path& path, const std::string&, size_t, const std::string&) {
-  base::fail(base::ExitCode::Input, "{}: cannot be read: this build has no OpenVDB", path.string());
+VdbReader::VdbReader(std::filesystem::path path) : path_(std::move(path)) {
+  base::fail(base::ExitCode::Input, "{}: cannot be read: this build has no OpenVDB", path_.string());
+}
+
+DensityGrid VdbReader::read(const std::string&, size_t, const std::string&) const {
+  return {};  // there is none
 }
 
 void writeVdb(const std::filesystem::path& path, const DensityGrid&) {
@@ -338,3 +343,12 @@ void writeVdb(const std::filesystem::path& path, std::span<const DensityGrid* co
 }  // namespace sfumato::volumes
 
 #endif
+
+namespace sfumato::volumes {
+
+DensityGrid readVdb(const std::filesystem::path& path, const std::string& gridName, size_t maxBytes,
+                    const std::string& option) {
+  return VdbReader(path).read(gridName, maxBytes, option);
+}
+
+}  // namespace sfumato::volumes

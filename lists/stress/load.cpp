@@ -1,11 +1,8 @@
 #include "lists/stress/load.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.h"
 #include "base/hash.h"
 
 namespace sfumato::lists::stress {
@@ -59,22 +56,10 @@ Node hairNode(const Load& load, uint32_t number) {
 
 }  // namespace
 
-const std::vector<std::string>& distributionNames() {
-  static const std::vector<std::string> names = {"uniform", "hot-spot", "one-cell", "hair"};
-  return names;
-}
-
-const std::string& nameOf(Distribution distribution) {
-  return distributionNames()[static_cast<size_t>(distribution)];
-}
-
-Distribution distributionNamed(const std::string& name) {
-  const auto& names = distributionNames();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    base::fail(base::ExitCode::Usage, "no distribution \"{}\": choose one of {}", name,
-               fmt::join(names, ", "));
-  return static_cast<Distribution>(found - names.begin());
+const base::Choice<Distribution>& distributions() {
+  static const base::Choice<Distribution> choice{"--distribution",
+                                                 {"uniform", "hot-spot", "one-cell", "hair"}};
+  return choice;
 }
 
 size_t Load::nodes() const {

@@ -4,8 +4,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
+
+#include "base/choice.h"
 
 namespace sfumato::lists::stress {
 
@@ -16,11 +17,7 @@ enum class Distribution {
   Hair,     // strands of `width` nodes in clumps: dense roots, frayed tips, many equal depths
 };
 
-// "uniform", "hot-spot", "one-cell", "hair", in the order of the enum.
-const std::vector<std::string>& distributionNames();
-const std::string& nameOf(Distribution distribution);
-// Throws Usage for another name.
-Distribution distributionNamed(const std::string& name);
+const base::Choice<Distribution>& distributions();  // "uniform", "hot-spot", "one-cell", "hair"
 
 struct Load {
   int width = 256;  // of the grid of cells, 1 to 16384

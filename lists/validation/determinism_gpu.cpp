@@ -120,7 +120,7 @@ Result sortedImage(const Context& context) {
     for (size_t i = 0; i < image.size(); ++i) pixels += image[i] != expected[i];
     if (wrong++ == 0)
       result.finding = fmt::format("run {} with strategy {}: {} of {} pixels are not what sorting gives", run,
-                                   nameOf(strategy), pixels, image.size());
+                                   lists::strategies().nameOf(strategy), pixels, image.size());
   }
   result.figures = {{"runs", int64_t{runs}},
                     {"wrong runs", wrong},

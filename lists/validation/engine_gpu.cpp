@@ -118,7 +118,8 @@ Result engineLists(const Context& context, Strategy strategy) {
     result.verdict = Verdict::Fail;
     result.finding = wrong != 0 ? fmt::format("{} of {} cells are wrong", wrong, load.cells)
                                 : "the build lost nodes, and was done again by counting";
-    result.meaning = fmt::format("the engine must not build lists by `{}` on this driver", nameOf(strategy));
+    result.meaning =
+        fmt::format("the engine must not build lists by `{}` on this driver", strategies().nameOf(strategy));
     return result;
   }
   const int64_t lost = lostWithoutAtomics(context, load);
@@ -135,12 +136,12 @@ Result engineLists(const Context& context, Strategy strategy) {
 std::vector<Check> engineChecks() {
   std::vector<Check> checks;
   for (const Strategy strategy : {Strategy::SpinLock, Strategy::LockFree, Strategy::Append, Strategy::Count})
-    checks.push_back(
-        {.name = "engine-" + nameOf(strategy),
-         .group = "engine",
-         .does = "the engine's own lists by `" + nameOf(strategy) + "`: every cell, node by node",
-         .strategies = {nameOf(strategy)},
-         .run = [strategy](const Context& context) { return engineLists(context, strategy); }});
+    checks.push_back({.name = "engine-" + strategies().nameOf(strategy),
+                      .group = "engine",
+                      .does = "the engine's own lists by `" + strategies().nameOf(strategy) +
+                              "`: every cell, node by node",
+                      .strategies = {strategies().nameOf(strategy)},
+                      .run = [strategy](const Context& context) { return engineLists(context, strategy); }});
   return checks;
 }
 

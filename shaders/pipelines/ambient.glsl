@@ -5,5 +5,5 @@
 // `ambient`: radiance from all directions; `accessibility`: the part of it that gets to the surface. As for lights, what
 // is reflected at once is not there to be scattered, so that a white surface returns as much as arrives.
 vec3 ambientFrom(Surface surface, vec3 ambient, float accessibility) {
-  return accessibility * ambient * (surface.diffuse * (1.0 - maxComponent(surface.f0)) + surface.f0);
+  return accessibility * ambient * (surface.diffuse * notMirrored(surface, surface.f0) + surface.f0);
 }

@@ -9,6 +9,7 @@ struct Surface {
   float roughness;
   vec3 f0;
   float f90;
+  float perAlpha;  // 1 / alpha, by which the colours above are multiplied
   vec3 emissive;
   uint object;  // see PackedSurface
 };
@@ -23,6 +24,7 @@ Surface unpackSurface(PackedSurface s) {
   surface.roughness = diffuseB.y;
   surface.f0 = vec3(unpackHalf2x16(s.f0Rg), f0B.x);
   surface.f90 = f0B.y;
+  surface.perAlpha = 4095.0 / max(float(4095u - (s.coverageObject >> 4 & 4095u)), 0.5);
   surface.emissive = vec3(unpackHalf2x16(s.emissiveRg), unpackHalf2x16(s.emissiveBPassR).x);
   surface.object = s.coverageObject >> 16;
   return surface;
@@ -30,6 +32,11 @@ Surface unpackSurface(PackedSurface s) {
 
 vec3 surfacePass(PackedSurface s) {
   return vec3(unpackHalf2x16(s.emissiveBPassR).y, unpackHalf2x16(s.passGb));
+}
+
+// The part of what arrives that is not mirrored: alpha takes from both alike.
+float notMirrored(Surface surface, vec3 mirrored) {
+  return 1.0 - clamp(maxComponent(mirrored) * surface.perAlpha, 0.0, 1.0);
 }
 
 // Reflected radiance over irradiance, 1/sr, in two parts: what is mirrored, by GGX with height-correlated Smith visibility
@@ -48,7 +55,7 @@ float brdfParts(Surface surface, vec3 toLight, vec3 toViewer, out vec3 mirrored)
   float grazing = pow(1.0 - vh, 5.0);
   vec3 fresnel = surface.f0 + (surface.f90 - surface.f0) * grazing;
   mirrored = distribution * visibility * fresnel;
-  return (1.0 - clamp(maxComponent(fresnel), 0.0, 1.0)) / PI;
+  return notMirrored(surface, fresnel) / PI;
 }
 
 vec3 brdf(Surface surface, vec3 toLight, vec3 toViewer) {

@@ -16,6 +16,6 @@ void main() {
 #elif defined(AMBIENT)
   // The colours that this meets are counted later.
   vec3 ambient = params.ambient.rgb * accessibilityOf(surface, pixel, depth, isTranslucent(stored));
-  light = vec4(ambient * (1.0 - maxComponent(surface.f0)), maxComponent(ambient * surface.f0));
+  light = vec4(ambient * notMirrored(surface, surface.f0), maxComponent(ambient * surface.f0));
 #endif
 }

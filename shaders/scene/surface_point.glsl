@@ -39,6 +39,6 @@ PackedSurface packedSurface(SurfacePoint point) {
   s.emissiveRg = packHalf2x16(min(emissive.rg, 65504.0));
   s.emissiveBPassR = packHalf2x16(vec2(min(emissive.b, 65504.0), pass.r));
   s.passGb = packHalf2x16(pass.gb);
-  s.coverageObject = point.coverageObject;
+  s.coverageObject = (point.coverageObject & 0xffff000fu) | uint(round(4095.0 * (1.0 - clamp(base.a, 0.0, 1.0)))) << 4;
   return s;
 }

@@ -28,6 +28,7 @@ struct ResolveParams {
   vec4 samples23;
   vec4 ambient;    // rgb: radiance from all around; w: radius of ambient occlusion, m
   ivec4 blocks;    // of smoke, x: pixels a side; y: knots of each at most; z: 1 when they are only counted
+  ivec4 area;      // x, y, width, height: of layers: pixels that have the rays
 };
 
 // A square of pixels of the image, aligned to its side, whose smoke was marched once, along the ray through its middle. Where

@@ -15,7 +15,8 @@ struct PackedSurface {
   uint emissiveRg;
   uint emissiveBPassR;     // t = 1 - a (1 - tau b): what is let through
   uint passGb;
-  uint coverageObject;     // low: bit n: sample n of the pixel is covered; high: SHADOW_* if it does not shadow itself
+  uint coverageObject;     // bits 0 to 3: bit n: sample n of the pixel is covered; 4 to 15: 1 - alpha, in 4095ths; high:
+                           // SHADOW_* if it does not shadow itself
 };
 
 SHARED_END

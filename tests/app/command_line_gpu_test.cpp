@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "image/image_file.h"
 #include "image/metrics.h"
+#include "lists/driver_verdict.h"
 #include "pipelines/pipeline_names.h"
 #include "tests/app/program.h"
 #include "tests/gl/test_device.h"
@@ -500,6 +501,21 @@ TEST_F(CommandLineRender, ReportsProgressOnStderr) {
   EXPECT_TRUE(bar.err.ends_with("s\r\n")) << bar.err;
 }
 
+// What `validate` once found out for the user decides nothing in tests, unless they ask for it.
+TEST_F(CommandLineRender, RunsInTestsWithoutTheUsersVerdict) {
+  const std::filesystem::path cache = path("cache of the user");
+  const gl::DeviceNames& names = tests::testDevice()->names();
+  setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+  lists::saveVerdict({{names.vendor, names.renderer, names.version}, {{"count", lists::Trust::Unsafe}}});
+  const auto strategy = [&](const std::vector<std::string>& environment) {
+    render({"scene.gltf", "-o", "out.exr", "--stats", "out.json"}, "8x8", {.environment = environment});
+    return Json::parse(contentOf(path("out.json")))["lists"]["surfaces"]["strategy"];
+  };
+  EXPECT_EQ(strategy({}), "count");
+  EXPECT_EQ(strategy({"XDG_CACHE_HOME=" + cache.string()}), "append");
+  unsetenv("XDG_CACHE_HOME");
+}
+
 TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
   // A cube of maps: 12 bytes a texel at least.
   const Outcome outcome = run({"render", "scene.gltf", "-o", "out.exr", "--res", "64x48", "--quality", "high",
@@ -513,7 +529,10 @@ TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
   EXPECT_EQ(figures["lists"]["shadows"][0]["resolution"], 32);
   expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "100K", "--shadow-res",
                          "512", "--shadow-error", "0"})),
-              5, "deep shadow maps: take 46 times the 0.1 MiB that they may");
+              5, "deep shadow maps: take 46 times the 100.0 KiB that they may");
+  expectError(
+      run(draft({"scene.gltf", "-o", "out.png", "-q", "--pipeline", "interlaced", "--shadow-memory", "16K"})),
+      5, "interlaced shadow maps: take 1.1 times the 16.0 KiB that they may");
   expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "much"})), 2,
               "--shadow-memory");
 }

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -46,6 +47,23 @@ inline std::vector<char*> pointers(std::vector<std::string>& texts) {
   for (std::string& text : texts) result.push_back(text.data());
   result.push_back(nullptr);
   return result;
+}
+
+// Variables by which the program finds nothing that it kept for the user, as what `validate` found out, but
+// drivers the shaders that they did.
+inline std::vector<std::string> withoutTheUsersCache(std::vector<std::string> environment) {
+  static const TemporaryFolder cache("cache");
+  const char* home = std::getenv("HOME");
+  const char* users = std::getenv("XDG_CACHE_HOME");
+  const std::filesystem::path shaders = users != nullptr
+                                            ? std::filesystem::path(users)
+                                            : std::filesystem::path(home != nullptr ? home : "") / ".cache";
+  if (std::getenv("MESA_SHADER_CACHE_DIR") == nullptr)
+    environment.push_back("MESA_SHADER_CACHE_DIR=" + shaders.string());
+  const auto names = [](const std::string& variable) { return variable.starts_with("XDG_CACHE_HOME="); };
+  if (std::none_of(environment.begin(), environment.end(), names))
+    environment.push_back("XDG_CACHE_HOME=" + cache.path().string());
+  return environment;
 }
 
 inline std::vector<std::string> environmentWith(const std::vector<std::string>& changes) {
@@ -86,7 +104,7 @@ inline Outcome runProgram(const std::filesystem::path& folder, const Arguments& 
                           const Surroundings& surroundings = {}) {
   std::vector<std::string> words = {SFUMATO_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> variables = environmentWith(surroundings.environment);
+  std::vector<std::string> variables = environmentWith(withoutTheUsersCache(surroundings.environment));
   const std::vector<char*> argv = pointers(words);
   const std::vector<char*> envp = pointers(variables);
   int out[2];

@@ -1,11 +1,11 @@
 #include "base/file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "base/error.h"
+#include "tests/base/temporary_folder.h"
 
 namespace sfumato::base {
 namespace {
@@ -14,9 +14,6 @@ namespace fs = std::filesystem;
 
 class File : public testing::Test {
  protected:
-  File() { fs::create_directory(folder); }
-  ~File() override { fs::remove_all(folder); }
-
   // The names in the folder.
   std::vector<std::string> names() const {
     std::vector<std::string> found;
@@ -40,9 +37,8 @@ class File : public testing::Test {
     }
   }
 
-  const fs::path folder =
-      fs::temp_directory_path() / fmt::format("sfumato_file_{}_{}", getpid(),
-                                              testing::UnitTest::GetInstance()->current_test_info()->name());
+  const test::TemporaryFolder own{"file"};
+  const fs::path& folder = own.path();
 };
 
 TEST_F(File, ReadsWhatWasWrittenByteForByte) {

@@ -155,7 +155,7 @@ void compareStrategies(gl::Device& device, const Size& size, int runs) {
   const double linked = median(times[0]["link"]);
   const double spinlock = median(times[0]["all"]);
   for (int i = 0; i < 4; ++i) {
-    fmt::print("{:24} {:9}", size.name(), lists::nameOf(static_cast<lists::Strategy>(i)));
+    fmt::print("{:24} {:9}", size.name(), lists::strategies().nameOf(static_cast<lists::Strategy>(i)));
     const double time = median(times[i]["all"]);
     fmt::print(" {:7.1f} ms: {:.2f} of spinlock's linking, {:.2f} with its runs;", time, time / linked,
                time / spinlock);
@@ -202,7 +202,7 @@ void compareBudgets(gl::Device& device, const Size& size, int runs) {
       tight.push_back(milliseconds([&] { windows = bench.buildWindows(limited); }));
     }
     fmt::print("{:24} {:9} 10 % of {:.1f} MiB: {} windows, {} nodes lost, {:.2f} times the time\n",
-               size.name(), lists::nameOf(strategy), static_cast<double>(demand.bytes) / 0x1p20,
+               size.name(), lists::strategies().nameOf(strategy), static_cast<double>(demand.bytes) / 0x1p20,
                windows.windows, demand.stored - windows.stored, median(tight) / median(free));
   }
 }

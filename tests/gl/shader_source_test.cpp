@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "tests/base/temporary_folder.h"
 
 namespace sfumato::gl {
 namespace {
@@ -13,12 +14,10 @@ namespace fs = std::filesystem;
 
 class ShaderSourceFiles : public testing::Test {
  protected:
-  ShaderSourceFiles() : folder_(fs::temp_directory_path() / ("sfumato-shaders-" + std::to_string(getpid()))) {
-    fs::create_directories(folder_ / "a");
-  }
-  ~ShaderSourceFiles() override { fs::remove_all(folder_); }
+  ShaderSourceFiles() { fs::create_directories(folder_ / "a"); }
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-  const fs::path folder_;
+  const test::TemporaryFolder own_{"shaders"};
+  const fs::path& folder_ = own_.path();
 };
 
 TEST_F(ShaderSourceFiles, IncludesEachFileOnceAndKeepsPlaces) {

@@ -1,6 +1,5 @@
 // Deep files, flattened by OpenImageIO, against their samples composited in double precision.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include "base/file.h"
 #include "base/random.h"
 #include "image/image_file.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/image/deep_compositing.h"
 #include "tests/image/openimageio.h"
 
@@ -21,16 +21,10 @@ class DeepFile : public testing::Test {
  protected:
   void SetUp() override {
     if (!test::hasOpenImageIO()) GTEST_SKIP() << "this build has no OpenImageIO";
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / fmt::format("sfumato_deep_{}_{}", info->name(), getpid());
-    fs::create_directories(folder_);
   }
-  void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-  fs::path file(const char* name) const { return folder_ / name; }
+  fs::path file(const char* name) const { return folder_.path() / name; }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_{"deep"};
 };
 
 // Up to 40 samples a pixel, of all alphas from 1e-6 to 1, some pixels without any.
@@ -155,7 +149,7 @@ TEST_F(DeepFile, WhatCannotBeWrittenLeavesNothing) {
   EXPECT_EQ(write(file("missing/a.exr")), base::ExitCode::Input);
   fs::create_directory(file("folder.exr"));
   EXPECT_EQ(write(file("folder.exr")), base::ExitCode::Input);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 
 TEST_F(DeepFile, DamagedFilesAreRefused) {

@@ -1,7 +1,6 @@
 #include "image/image_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/image/openimageio.h"
 #include "tests/image/png_builder.h"
 
@@ -25,15 +25,9 @@ class ImageFile : public testing::Test {
  protected:
   void SetUp() override {
     if (!test::hasOpenImageIO()) GTEST_SKIP() << "this build has no OpenImageIO";
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / fmt::format("sfumato_image_{}_{}", info->name(), getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
   }
 
-  fs::path file(const char* name) const { return folder_ / name; }
+  fs::path file(const char* name) const { return folder_.path() / name; }
 
   void writeBytes(const fs::path& path, std::span<const std::byte> bytes) const {
     std::ofstream(path, std::ios::binary)
@@ -41,10 +35,11 @@ class ImageFile : public testing::Test {
   }
 
   size_t filesInFolder() const {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    return static_cast<size_t>(
+        std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_{"image"};
 };
 
 // The exit code of the Error that `body` throws, after a look at its line; 0 when nothing is thrown.
@@ -169,7 +164,7 @@ TEST_F(ImageFile, RefusesUnknownEndingsAndBadPlaces) {
   EXPECT_EQ(codeOf([&] { checkImageName("exr"); }, "exr: "), usage);
   EXPECT_EQ(codeOf([&] { checkImageName("a.EXR"); }, ""), 0);
   EXPECT_EQ(codeOf([&] { writeImage("a.tiff", image, {}); }, "a.tiff: "), usage);
-  const std::string missing = (folder_ / "no" / "a.exr").string();
+  const std::string missing = (folder_.path() / "no" / "a.exr").string();
   EXPECT_EQ(codeOf([&] { writeImage(missing, image, {}); }, missing + ": "), input);
   fs::create_directories(file("folder.exr"));
   EXPECT_EQ(codeOf([&] { writeImage(file("folder.exr"), image, {}); }, file("folder.exr").string()), input);

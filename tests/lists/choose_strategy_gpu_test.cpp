@@ -1,8 +1,5 @@
 // The engine keeps to what the validation found out about a driver.
-#include <unistd.h>
-
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -10,24 +7,21 @@
 #include "base/error.h"
 #include "lists/driver_verdict.h"
 #include "lists/lists_gpu.h"
+#include "tests/base/temporary_folder.h"
 #include "tests/gl/test_device.h"
 
 namespace sfumato::lists {
 namespace {
-
-namespace fs = std::filesystem;
 
 // With a cache of its own, in place of the user's.
 class ChooseStrategy : public tests::GpuTest {
  protected:
   void SetUp() override {
     GpuTest::SetUp();
-    setenv("XDG_CACHE_HOME", cache_.c_str(), 1);
+    setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1);
   }
   void TearDown() override {
     unsetenv("XDG_CACHE_HOME");
-    std::error_code ignored;
-    fs::remove_all(cache_, ignored);
     GpuTest::TearDown();
   }
 
@@ -37,7 +31,7 @@ class ChooseStrategy : public tests::GpuTest {
   }
 
  private:
-  const fs::path cache_ = fs::temp_directory_path() / ("sfumato_choose_test_" + std::to_string(getpid()));
+  const test::TemporaryFolder cache_{"choose_test"};
 };
 
 TEST_F(ChooseStrategy, CountsWhereNothingSpeaksAgainstIt) {

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 
 #include "base/error.h"
+#include "tests/base/temporary_folder.h"
 
 namespace sfumato::lists {
 namespace {
@@ -18,17 +17,10 @@ namespace fs = std::filesystem;
 // A cache of its own, in place of the user's.
 class DriverVerdictTest : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::create_directories(cache_);
-    setenv("XDG_CACHE_HOME", cache_.c_str(), 1);
-  }
-  void TearDown() override {
-    unsetenv("XDG_CACHE_HOME");
-    std::error_code ignored;
-    fs::remove_all(cache_, ignored);
-  }
+  void SetUp() override { setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1); }
+  void TearDown() override { unsetenv("XDG_CACHE_HOME"); }
 
-  const fs::path cache_ = fs::temp_directory_path() / ("sfumato_verdict_test_" + std::to_string(getpid()));
+  const test::TemporaryFolder cache_{"verdict_test"};
   const Driver driver_{"Maker", "Renderer \"X\"", "4.5 build 7"};
   const DriverVerdict verdict_{
       driver_, {{"spinlock", Trust::Unsafe}, {"lockfree", Trust::NotShown}, {"append", Trust::Safe}}};
@@ -37,7 +29,7 @@ class DriverVerdictTest : public testing::Test {
 TEST_F(DriverVerdictTest, IsReadAsItWasWritten) {
   EXPECT_FALSE(loadVerdict(driver_).has_value());
   saveVerdict(verdict_);
-  EXPECT_TRUE(verdictFile(driver_).string().starts_with(cache_.string()));
+  EXPECT_TRUE(verdictFile(driver_).string().starts_with(cache_.path().string()));
   const auto read = loadVerdict(driver_);
   ASSERT_TRUE(read.has_value());
   EXPECT_EQ(read->driver, driver_);
@@ -82,8 +74,8 @@ TEST_F(DriverVerdictTest, ADamagedFileIsNoVerdict) {
 }
 
 TEST_F(DriverVerdictTest, SaysWhenItCannotBeKept) {
-  fs::remove_all(cache_);
-  std::ofstream(cache_.string()) << "a file, not a folder";
+  fs::remove_all(cache_.path());
+  std::ofstream(cache_.path()) << "a file, not a folder";
   try {
     saveVerdict(verdict_);
     FAIL() << "no error";

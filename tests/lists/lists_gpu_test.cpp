@@ -136,7 +136,8 @@ TEST_F(ListsGpu, EveryStrategyGivesTheListsOfTheCpuWhateverTheOrderOfDraws) {
       for (const int words : {0, 1, 3}) {
         for (const Order& order : {Order{}, Order{7919, 13, 5}}) {
           ASSERT_EQ(build(load, words, {.strategy = strategy}, order), expected)
-              << nameOf(strategy) << ", " << load.nodes << " nodes, " << words << " words";
+              << lists::strategies().nameOf(strategy) << ", " << load.nodes << " nodes, " << words
+              << " words";
           EXPECT_EQ(statistics_.strategy, strategy);
           EXPECT_EQ(statistics_.distrusted, 0);
           EXPECT_EQ(statistics_.demand, load.nodes);
@@ -152,7 +153,8 @@ TEST_F(ListsGpu, EveryStrategyGivesTheListsOfTheCpuWhateverTheOrderOfDraws) {
 TEST_F(ListsGpu, EveryStrategyKeepsEveryNodeOfLongLists) {
   for (const Strategy strategy : strategies) {
     for (const Load& load : {Load{512, 1, 40, 5}, Load{100000, 1, 1u << 20, 6}}) {
-      ASSERT_EQ(build(load, 1, {.strategy = strategy}), listsOnTheCpu(load)) << nameOf(strategy);
+      ASSERT_EQ(build(load, 1, {.strategy = strategy}), listsOnTheCpu(load))
+          << lists::strategies().nameOf(strategy);
       EXPECT_EQ(statistics_.distrusted, 0);
       EXPECT_EQ(statistics_.longest, load.nodes);
     }
@@ -218,7 +220,7 @@ TEST_F(ListsGpu, ABudgetHoldsAndNothingIsLost) {
     build(mixed, 1, {.strategy = strategy});
     const size_t demand = statistics_.bytes;
     for (const size_t percent : {100u, 60u, 25u, 10u}) {
-      const std::string label = fmt::format("{} {} %", nameOf(strategy), percent);
+      const std::string label = fmt::format("{} {} %", lists::strategies().nameOf(strategy), percent);
       const ListOptions options{.strategy = strategy, .budgetBytes = demand * percent / 100};
       ASSERT_EQ(buildWindows(mixed, 1, options, label), listsOnTheCpu(mixed)) << label;
       EXPECT_EQ(statistics_.stored, mixed.nodes);
@@ -263,8 +265,8 @@ TEST_F(ListsGpu, ABudgetDownToOneNodeHolds) {
         EXPECT_NE(std::string(error.what()).find("one cell alone holds"), std::string::npos);
       }
     }
-    EXPECT_GT(least, 0u) << nameOf(strategy);
-    EXPECT_LE(statistics_.capacity, 2 * longest) << nameOf(strategy);
+    EXPECT_GT(least, 0u) << lists::strategies().nameOf(strategy);
+    EXPECT_LE(statistics_.capacity, 2 * longest) << lists::strategies().nameOf(strategy);
   }
 }
 
@@ -316,7 +318,7 @@ TEST_F(ListsGpu, PoolsOfSeveralBanksHoldTheSame) {
         // Two to four banks.
         const size_t bytes = size_t{load.nodes} * 12 / 2;
         ASSERT_EQ(build(load, words, {.strategy = strategy, .bankBytes = bytes}), listsOnTheCpu(load))
-            << nameOf(strategy) << ", " << words << " words";
+            << lists::strategies().nameOf(strategy) << ", " << words << " words";
         EXPECT_EQ(statistics_.distrusted, 0);
       }
 }
@@ -325,7 +327,7 @@ TEST_F(ListsGpu, MoreThanAllBanksHoldIsBuiltInWindows) {
   for (const Strategy strategy : strategies) {
     const ListOptions options{.strategy = strategy, .bankBytes = 12 * 2048};
     EXPECT_THROW(build(mixed, 1, options), base::Error);
-    ASSERT_EQ(buildWindows(mixed, 1, options), listsOnTheCpu(mixed)) << nameOf(strategy);
+    ASSERT_EQ(buildWindows(mixed, 1, options), listsOnTheCpu(mixed)) << lists::strategies().nameOf(strategy);
     EXPECT_GT(statistics_.windows, 7);
   }
 }

@@ -12,13 +12,13 @@ namespace {
 
 TEST(Strategy, NamesAreReadAsTheyAreWritten) {
   for (const Strategy strategy : {Strategy::SpinLock, Strategy::LockFree, Strategy::Append, Strategy::Count})
-    EXPECT_EQ(strategyNamed(nameOf(strategy)), strategy);
+    EXPECT_EQ(strategies().named(strategies().nameOf(strategy)), strategy);
   for (const OnOverflow policy : {OnOverflow::Grow, OnOverflow::Window, OnOverflow::Error})
-    EXPECT_EQ(onOverflowNamed(nameOf(policy)), policy);
-  EXPECT_EQ(nameOf(Strategy::LockFree), "lockfree");
-  EXPECT_EQ(nameOf(OnOverflow::Error), "error");
-  EXPECT_THROW(strategyNamed("fast"), base::Error);
-  EXPECT_THROW(onOverflowNamed(""), base::Error);
+    EXPECT_EQ(overflowPolicies().named(overflowPolicies().nameOf(policy)), policy);
+  EXPECT_EQ(strategies().nameOf(Strategy::LockFree), "lockfree");
+  EXPECT_EQ(overflowPolicies().nameOf(OnOverflow::Error), "error");
+  EXPECT_THROW(strategies().named("fast"), base::Error);
+  EXPECT_THROW(overflowPolicies().named(""), base::Error);
 }
 
 TEST(Strategy, FiguresOfWindowsAreJoined) {

@@ -54,7 +54,8 @@ TEST_F(StressGpu, IsBuiltInFewWindowsWhereverItIsCrowded) {
       const Measured measured = measure(device(), load, {.strategy = strategy, .budgetBytes = whole / 8});
       EXPECT_TRUE(measured.findings.good()) << measured.findings.fault;
       EXPECT_GE(measured.statistics.windows, 8);
-      EXPECT_LE(measured.statistics.windows, 16) << nameOf(strategy) << ", " << nameOf(distribution);
+      EXPECT_LE(measured.statistics.windows, 16)
+          << lists::strategies().nameOf(strategy) << ", " << distributions().nameOf(distribution);
     }
   }
 }

@@ -87,8 +87,8 @@ TEST(StressLoad, ChangesWithTheSeed) {
 
 TEST(StressLoad, IsNamed) {
   for (const Distribution distribution : all)
-    EXPECT_EQ(distributionNamed(nameOf(distribution)), distribution);
-  EXPECT_THROW(distributionNamed("gaussian"), base::Error);
+    EXPECT_EQ(distributions().named(distributions().nameOf(distribution)), distribution);
+  EXPECT_THROW(distributions().named("gaussian"), base::Error);
 }
 
 // Lists as a device without a fault would build them, for a test to break.

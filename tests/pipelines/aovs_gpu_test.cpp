@@ -9,11 +9,7 @@
 #include "base/error.h"
 #include "image/metrics.h"
 #include "pipelines/aovs_gpu.h"
-#include "pipelines/linked_lists_gpu.h"
-#include "pipelines/reference.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
-#include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/frame_test.h"
 
 namespace sfumato::pipelines {
 namespace {
@@ -25,20 +21,7 @@ constexpr int height = 72;
 const AovSet all = {Aov::Depth,  Aov::Normal,    Aov::Albedo,     Aov::Transmittance,
                     Aov::Lights, Aov::Fragments, Aov::ShadowNodes};
 
-class AovsGpu : public tests::GpuTest {
- protected:
-  Frame draw(const KnownScene& known, const Quality& quality, const FrameOptions& options) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
-    return pipeline.render(known.scene.cameras[0], width, height, quality, options);
-  }
-};
-
-Quality smooth() {
-  Quality quality = fine;
-  quality.samples = 4;
-  quality.shadowResolution = 256;
-  return quality;
-}
+class AovsGpu : public FrameTest<width, height> {};
 
 // Of the pixels: a value of which is off by more than `tolerance`, absolute and relative.
 double failingFraction(const image::Image& image, const image::Image& reference, double tolerance) {
@@ -68,7 +51,7 @@ TEST_F(AovsGpu, AreThoseOfTheReference) {
     ASSERT_EQ(frame.aovs.size(), shared.size());
     for (const auto& [aov, image] : reference.aovs) {
       const double failing = failingFraction(frame.aovs.at(aov), image, tolerances.at(aov));
-      EXPECT_LT(failing, 0.0005) << known.name << " " << nameOf(aov);
+      EXPECT_LT(failing, 0.0005) << known.name << " " << aovKinds().nameOf(aov);
     }
   }
 }
@@ -96,7 +79,8 @@ TEST_F(AovsGpu, OfAnotherViewWouldNotPass) {
   known.scene.cameras[0].worldFromView[3].x += 0.02;
   const Frame moved = draw(known, fine, {.aovs = all});
   for (const Aov aov : {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Transmittance, Aov::Fragments})
-    EXPECT_GT(failingFraction(moved.aovs.at(aov), frame.aovs.at(aov), 4e-3), 0.0005) << nameOf(aov);
+    EXPECT_GT(failingFraction(moved.aovs.at(aov), frame.aovs.at(aov), 4e-3), 0.0005)
+        << aovKinds().nameOf(aov);
 }
 
 TEST_F(AovsGpu, LeaveThePictureAsItIs) {
@@ -110,7 +94,8 @@ TEST_F(AovsGpu, AreTheSameInWindows) {
   const KnownScene known = tests::smokeAndGlass();
   const Frame whole = draw(known, smooth(), {.aovs = all});
   const Frame parts = draw(known, smooth(), {.aovs = all, .windowPixels = 300});
-  for (const Aov aov : all) EXPECT_EQ(parts.aovs.at(aov).values, whole.aovs.at(aov).values) << nameOf(aov);
+  for (const Aov aov : all)
+    EXPECT_EQ(parts.aovs.at(aov).values, whole.aovs.at(aov).values) << aovKinds().nameOf(aov);
 }
 
 // A white wall 3 m away, turned by 45 degrees about Y, that covers the right half of what is seen.
@@ -187,9 +172,9 @@ TEST_F(AovsGpu, CountWhatListsHold) {
 }
 
 TEST(Aovs, HaveNamesAndLayers) {
-  EXPECT_EQ(aovNames().size(), all.size());
-  for (const Aov aov : all) EXPECT_EQ(aovNamed(nameOf(aov)), aov);
-  EXPECT_THROW(aovNamed("beauty"), base::Error);
+  EXPECT_EQ(aovKinds().names.size(), all.size());
+  for (const Aov aov : all) EXPECT_EQ(aovKinds().named(aovKinds().nameOf(aov)), aov);
+  EXPECT_THROW(aovKinds().named("beauty"), base::Error);
   const image::Layer layer = layerOf(Aov::ShadowNodes, image::Image(1, 1, 1));
   EXPECT_EQ(layer.name, "shadow_nodes");
   for (const auto& [aov, image] : emptyImages(all, 3, 2))

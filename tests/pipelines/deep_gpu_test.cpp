@@ -6,11 +6,8 @@
 #include "base/error.h"
 #include "image/metrics.h"
 #include "pipelines/deep_pixels.h"
-#include "pipelines/linked_lists_gpu.h"
-#include "tests/gl/test_device.h"
 #include "tests/image/deep_compositing.h"
-#include "tests/pipelines/frame_errors.h"
-#include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/frame_test.h"
 #include "tests/pipelines/media_scenes.h"
 
 namespace sfumato::pipelines {
@@ -24,21 +21,7 @@ using tests::KnownScene;
 constexpr int width = 64;
 constexpr int height = 48;
 
-class DeepGpu : public tests::GpuTest {
- protected:
-  Frame draw(const KnownScene& known, const Quality& quality, const FrameOptions& options) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
-    return pipeline.render(known.scene.cameras[0], width, height, quality, options);
-  }
-};
-
-Quality smooth() {
-  Quality quality = fine;
-  quality.samples = 4;
-  quality.shadowResolution = 256;
-  quality.stepVoxels = 1;
-  return quality;
-}
+class DeepGpu : public FrameTest<width, height> {};
 
 double largest(const image::Image& image) {
   return *std::max_element(image.values.begin(), image.values.end());
@@ -80,7 +63,7 @@ TEST_F(DeepGpu, FlattenedItIsThePictureAndChangesNone) {
   for (const KnownScene& known :
        {tests::shinySpheres(), tests::smokeAndGlass(), tests::colouredBalls(), tests::fireBehindSmoke()}) {
     SCOPED_TRACE(known.name);
-    const Frame frame = draw(known, smooth(), {.deep = true});
+    const Frame frame = draw(known, smooth(1), {.deep = true});
     ASSERT_TRUE(frame.deep);
     EXPECT_LT(worstDifference(flattened(*frame.deep), frame.radiance, 1e-3), 1e-4);
     for (const auto& samples : frame.deep->pixels) {
@@ -88,7 +71,7 @@ TEST_F(DeepGpu, FlattenedItIsThePictureAndChangesNone) {
       for (const DeepSample& sample : samples)
         if (sample.takes[0] != sample.takes[2]) ++coloured;
     }
-    const Frame without = draw(known, smooth(), {});
+    const Frame without = draw(known, smooth(1), {});
     EXPECT_FALSE(without.deep);
     EXPECT_LT(worstDifference(frame.radiance, without.radiance, 1e-3), 1e-5);
   }
@@ -99,7 +82,7 @@ TEST_F(DeepGpu, WhatFindsNoRoomIsNotLost) {
   const KnownScene known = tests::smokeOverFloor();
   LinkedListsPipeline pipeline(device(), known.scene, known.media);
   const auto render = [&](int w, int h, const FrameOptions& options) {
-    return pipeline.render(known.scene.cameras[0], w, h, smooth(), options);
+    return pipeline.render(known.scene.cameras[0], w, h, smooth(1), options);
   };
   const Frame whole = render(width, height, {.deep = true});
   const Frame crowded = render(width, height, {.deep = true, .deepLimits = {.eventBytes = 1 << 12}});
@@ -158,14 +141,14 @@ image::Image withCard(const image::DeepImage& deep, const image::DeepImage& card
 // Where the card's edge crosses a pixel, its rays pass smoke of their own, which the mean of the pixel's is
 // not.
 TEST_F(DeepGpu, ACardPutIntoTheSmokeIsAsIfDrawnThere) {
-  const Frame smoke = draw(sunnyBall(), smooth(), {.deep = true});
+  const Frame smoke = draw(sunnyBall(), smooth(1), {.deep = true});
   for (const scene::Material& material : {tests::glowing({1, 1.5f, 0.5f}), tests::pane({0.8f, 0.5f, 0.2f})}) {
     KnownScene all = sunnyBall();
     addCard(all, material);
     KnownScene cardAlone{"card", all.scene, {}};
     cardAlone.scene.instances.erase(cardAlone.scene.instances.begin());
-    const Frame card = draw(cardAlone, smooth(), {.deep = true});
-    const Frame drawn = draw(all, smooth(), {});
+    const Frame card = draw(cardAlone, smooth(1), {.deep = true});
+    const Frame drawn = draw(all, smooth(1), {});
     const image::Image put = withCard(*smoke.deep, *card.deep);
     keep("deep_card_put", put);
     keep("deep_card_drawn", drawn.radiance);
@@ -223,7 +206,7 @@ void expectSurfaceAt(const image::DeepImage& image, const dvec3& p) {
 
 TEST_F(DeepGpu, TheMatricesSayWhereThingsAre) {
   const KnownScene known = tests::smokeAndGlass();
-  const Frame frame = draw(known, smooth(), {.deep = true, .deepShadows = {0, 1, 2}});
+  const Frame frame = draw(known, smooth(1), {.deep = true, .deepShadows = {0, 1, 2}});
   expectSurfaceAt(*frame.deep, {-1.4, 0.4, 0.5});  // the front of a box
   expectSurfaceAt(*frame.deep, {1.4, 0.6, -0.5});
   ASSERT_EQ(frame.deepShadows.size(), 3u);
@@ -242,7 +225,7 @@ TEST_F(DeepGpu, TheMatricesSayWhereThingsAre) {
 TEST_F(DeepGpu, AShadowMapsSamplesTakeWhatTheLightLoses) {
   KnownScene known = tests::smokeOverFloor();  // sigma 0.8 over a metre, slanting by 4/5
   tests::add(known.scene, tests::quad({-4, 1, 4}, {8, 0, 0}, {0, 0, -8}), tests::pane({0.75f, 0.5f, 0.25f}));
-  const Frame frame = draw(known, smooth(), {.deepShadows = {0}});
+  const Frame frame = draw(known, smooth(1), {.deepShadows = {0}});
   EXPECT_FALSE(frame.deep);
   const image::DeepImage& map = frame.deepShadows.at(0).at(0);
   const dvec3 place = placeIn(map, {0, 0, 0});

@@ -10,12 +10,9 @@
 
 #include "image/image_file.h"
 #include "image/metrics.h"
-#include "pipelines/reference.h"
 #include "scene/gltf.h"
 #include "scene/media.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
-#include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/frame_test.h"
 
 namespace sfumato::pipelines {
 namespace {
@@ -25,21 +22,14 @@ using tests::KnownScene;
 constexpr int width = 96;
 constexpr int height = 72;
 
-class LinkedListsGpuFrames : public tests::GpuTest {
- protected:
-  Frame draw(const KnownScene& known, const Quality& quality) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
-    return pipeline.render(known.scene.cameras[0], width, height, quality);
-  }
-};
+class LinkedListsGpuFrames : public FrameTest<width, height> {};
 
 class LinkedListsGpu : public LinkedListsGpuFrames, public testing::WithParamInterface<std::string> {};
 
 TEST_P(LinkedListsGpu, DrawsWhatTheReferenceDraws) {
   const KnownScene known = tests::named(tests::knownScenes(), GetParam());
   const Frame frame = draw(known, fine);
-  const image::Image reference =
-      renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
+  const image::Image reference = referenceOf(known);
   const PixelErrors found = compareFrames(known.name, frame.radiance, reference);
   // Shadow edges fall between texels: a few pixels lie on one. Measured: 0.0020 and 0.0004 at most.
   EXPECT_LT(found.failingFraction, 0.005);
@@ -52,9 +42,7 @@ TEST_F(LinkedListsGpuFrames, SamplesSmoothEdges) {
   // Without shadows: their edges are as smooth as the maps' texels.
   KnownScene known = tests::smokeAndGlass();
   for (scene::Light& light : known.scene.lights) light.castsShadow = false;
-  const image::Image reference = renderReference(
-      known.scene, known.scene.cameras[0], known.media,
-      {.width = width, .height = height, .samples = 8, .stepVoxels = 1, .shadowStepVoxels = 1});
+  const image::Image reference = referenceOf(known, {.samples = 8, .stepVoxels = 1, .shadowStepVoxels = 1});
   Quality quality = fine;
   const double rough = image::compare(draw(known, quality).radiance, reference).relativeRmse;
   quality.samples = 4;

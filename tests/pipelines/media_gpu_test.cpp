@@ -1,8 +1,5 @@
 // What media do to light, on the GPU against the reference.
-#include "pipelines/linked_lists_gpu.h"
-#include "pipelines/reference.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
+#include "tests/pipelines/frame_test.h"
 #include "tests/pipelines/media_scenes.h"
 
 namespace sfumato::pipelines {
@@ -18,21 +15,14 @@ std::vector<KnownScene> mediaScenes() {
           tests::burningSlab(),  tests::fireBehindSmoke(),    tests::burningBall()};
 }
 
-class MediaGpuFrames : public tests::GpuTest {
- protected:
-  Frame draw(const KnownScene& known, const Quality& quality) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
-    return pipeline.render(known.scene.cameras[0], width, height, quality);
-  }
-};
+class MediaGpuFrames : public FrameTest<width, height> {};
 
 class MediaGpu : public MediaGpuFrames, public testing::WithParamInterface<std::string> {};
 
 TEST_P(MediaGpu, LookLikeTheReference) {
   const KnownScene known = tests::named(mediaScenes(), GetParam());
   const Frame frame = draw(known, fine);
-  const image::Image reference =
-      renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
+  const image::Image reference = referenceOf(known);
   const PixelErrors found = compareFrames(known.name, frame.radiance, reference);
   // As in linked_lists_gpu_test.cpp.
   EXPECT_LT(found.failingFraction, 0.005);
@@ -46,8 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MediaGpu, testing::ValuesIn(tests::namesOf(medi
 // The comparison would see a colour that is lost.
 TEST_F(MediaGpuFrames, AGreyMediumInPlaceOfAColouredOneIsSeen) {
   KnownScene known = tests::colouredBalls();
-  const image::Image reference =
-      renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
+  const image::Image reference = referenceOf(known);
   for (volumes::Medium& medium : known.media) medium.extinctionColour = glm::dvec3(0.5);
   EXPECT_GT(errors(draw(known, fine).radiance, reference).failingFraction, 0.1);
 }
@@ -66,8 +55,7 @@ TEST_F(MediaGpuFrames, AGreyColourIsAScale) {
 
 TEST_F(MediaGpuFrames, AFireThatIsOutIsSeen) {
   KnownScene known = tests::burningBall();
-  const image::Image reference =
-      renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
+  const image::Image reference = referenceOf(known);
   known.media[0].fire.reset();
   // Twice what LookLikeTheReference lets through.
   EXPECT_GT(errors(draw(known, fine).radiance, reference).failingFraction, 0.01);
@@ -77,8 +65,7 @@ TEST_F(MediaGpuFrames, MultipleScatteringIsThatOfTheReference) {
   const KnownScene known = tests::colouredBalls();
   Quality quality = fine;
   quality.scatteringOctaves = 3;
-  const image::Image reference = renderReference(known.scene, known.scene.cameras[0], known.media,
-                                                 {.width = width, .height = height, .scatteringOctaves = 3});
+  const image::Image reference = referenceOf(known, {.scatteringOctaves = 3});
   const PixelErrors found = compareFrames("multiple scattering", draw(known, quality).radiance, reference);
   EXPECT_LT(found.failingFraction, 0.005);
   EXPECT_NEAR(found.meanRatio, 1.0, 0.001);

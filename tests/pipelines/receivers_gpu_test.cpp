@@ -2,11 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "pipelines/linked_lists_gpu.h"
-#include "pipelines/reference.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
-#include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/frame_test.h"
 
 namespace sfumato::pipelines {
 namespace {
@@ -32,13 +28,7 @@ scene::Light smallLight(const glm::dvec3& position, double range) {
   return light;
 }
 
-class ReceiversGpuFrames : public tests::GpuTest {
- protected:
-  Frame draw(const KnownScene& known, const Quality& quality, const FrameOptions& options = {}) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
-    return pipeline.render(known.scene.cameras[0], width, height, quality, options);
-  }
-};
+class ReceiversGpuFrames : public FrameTest<width, height> {};
 
 class ReceiversGpu : public ReceiversGpuFrames, public testing::WithParamInterface<int> {
  protected:
@@ -112,8 +102,7 @@ TEST_F(ReceiversGpuFrames, SmallSmokeIsFoundBesideTheMiddleOfACell) {
   known.media.push_back(tests::block({0.31, 0.32, 0.2}, {0.39, 0.41, 0.3}, {4, 4, 4}, 4, {0.9, 0.9, 0.9}, 0));
   known.scene.lights.push_back(smallLight({0.35, 0.36, 0.25}, 0.05));
   const Frame frame = draw(known, fine);
-  const image::Image reference =
-      renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
+  const image::Image reference = referenceOf(known);
   const PixelErrors found = compareFrames(known.name, frame.radiance, reference);
   EXPECT_NEAR(found.meanRatio, 1.0, 0.01);
   EXPECT_LT(found.failingFraction, 0.005);
@@ -161,8 +150,7 @@ TEST_F(ReceiversGpuFrames, ManyLightsLightWhatTheReferenceLights) {
       known.scene.lights.push_back(light);
     }
     const Frame frame = draw(known, quality, {.countLookups = true});
-    const image::Image reference =
-        renderReference(known.scene, known.scene.cameras[0], known.media, {.width = width, .height = height});
+    const image::Image reference = referenceOf(known);
     const PixelErrors found = compareFrames(known.name, frame.radiance, reference);
     // Edges of four shadows, and pixels whose ray all but hits a lamp: those make the mean, which tells
     // nothing.

@@ -133,6 +133,21 @@ TEST(ReferenceShading, FacetsCoverTheSurface) {
   EXPECT_NEAR(sum, 1, 1e-6);
 }
 
+// A surface that is half there does half of what it does.
+TEST(ReferenceShading, AlphaScalesAllThatIsReflected) {
+  scene::Material material = dielectric({0.8f, 0.6f, 0.4f}, 0.5f);
+  material.specularColour = {10, 5, 2};
+  const Reflector whole = reflector(material);
+  material.alphaMode = scene::AlphaMode::Blend;
+  material.baseColour.a = 0.5f;
+  const Reflector half = reflector(material);
+  const glm::dvec3 toViewer = direction(1.3, 0);
+  for (const double polar : {0.2, 0.8, 1.3})
+    expectNear(2.0 * brdf(half, toViewer, direction(polar, pi)), brdf(whole, toViewer, direction(polar, pi)),
+               1e-12);
+  expectNear(2.0 * ambientAlbedo(half), ambientAlbedo(whole), 1e-12);
+}
+
 TEST(ReferenceShading, WhatPasses) {
   const scene::Scene scene;
   const auto passing = [&](const scene::Material& m) { return coverageAt(scene, m, {}).passing(); };

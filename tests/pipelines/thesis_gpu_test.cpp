@@ -7,10 +7,7 @@
 
 #include "image/image_file.h"
 #include "image/metrics.h"
-#include "pipelines/linked_lists_gpu.h"
-#include "pipelines/reference.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
+#include "tests/pipelines/frame_test.h"
 #include "tests/pipelines/thesis_scenes.h"
 
 namespace sfumato::pipelines {
@@ -22,18 +19,7 @@ constexpr double pi = std::numbers::pi;
 constexpr int width = 64;
 constexpr int height = 48;
 
-class ThesisGpu : public tests::GpuTest {
- protected:
-  Frame draw(const KnownScene& known, const Quality& quality) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
-    return pipeline.render(known.scene.cameras[0], width, height, quality);
-  }
-
-  static image::Image reference(const KnownScene& known, double stepVoxels = 0.5) {
-    return renderReference(known.scene, known.scene.cameras[0], known.media,
-                           {.width = width, .height = height, .stepVoxels = stepVoxels});
-  }
-};
+class ThesisGpu : public FrameTest<width, height> {};
 
 class ThesisScenesGpu : public ThesisGpu, public testing::WithParamInterface<std::string> {};
 
@@ -45,7 +31,7 @@ TEST_P(ThesisScenesGpu, LookLikeTheReference) {
   // Near the camera a pane's shadow is a sharp edge in the smoke that both march over.
   if (known.name == "camera in smoke") quality.stepVoxels = 0.1;
   const Frame frame = draw(known, quality);
-  const image::Image expected = reference(known, quality.stepVoxels);
+  const image::Image expected = referenceOf(known, {.stepVoxels = quality.stepVoxels});
   const PixelErrors found = compareFrames(known.name, frame.radiance, expected);
   // Edges of shadows fall between texels: the pixels on one may fail. Measured: 0.0051, and 0.0020 of the
   // mean.
@@ -72,7 +58,7 @@ const std::vector<int> resolutions = {64, 128, 256, 512, 1024};
 TEST_F(ThesisGpu, AFloorHasNoAcneAtAnyAngleAndResolution) {
   for (const double elevation : elevations) {
     const KnownScene known = tests::floorAtAngle(elevation);
-    const image::Image expected = reference(known);
+    const image::Image expected = referenceOf(known);
     for (const int resolution : resolutions) {
       Quality quality = fine;
       quality.shadowResolution = resolution;
@@ -86,7 +72,7 @@ TEST_F(ThesisGpu, ABallHasNoAcneAtAnyAngleAndResolution) {
   for (const double elevation : elevations) {
     KnownScene known = tests::ballAtAngle(elevation);
     known.scene.instances.erase(known.scene.instances.begin());  // without the floor: nothing else shadows it
-    const image::Image expected = reference(known);
+    const image::Image expected = referenceOf(known);
     for (const int resolution : resolutions) {
       Quality quality = fine;
       quality.shadowResolution = resolution;

@@ -3,23 +3,19 @@
 #include <gtest/gtest.h>
 
 #include "image/metrics.h"
-#include "pipelines/linked_lists_gpu.h"
-#include "tests/gl/test_device.h"
-#include "tests/pipelines/frame_errors.h"
-#include "tests/pipelines/known_scenes.h"
+#include "tests/pipelines/frame_test.h"
 
 namespace sfumato::pipelines {
 namespace {
 
-class WalkedListsGpu : public tests::GpuTest {
+class WalkedListsGpu : public FrameTest<96, 72> {
  protected:
   Frame draw(const tests::KnownScene& known, int smokeNodes) {
-    LinkedListsPipeline pipeline(device(), known.scene, known.media);
     Quality quality = fine;
     quality.shadowResolution = 256;
     quality.walkedSmokeNodes = smokeNodes;
     if (smokeNodes > 0) quality.lists.strategy = lists::Strategy::SpinLock;
-    return pipeline.render(known.scene.cameras[0], 96, 72, quality);
+    return FrameTest::draw(known, quality);
   }
 };
 

@@ -1,18 +1,16 @@
 // Small glTF files for tests: JSON that a test may bend, and one buffer.
 #pragma once
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include "tests/base/temporary_folder.h"
 
 namespace sfumato::test {
 
@@ -126,31 +124,5 @@ inline GltfBuilder triangle() {
   gltf.meshNode({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
   return gltf;
 }
-
-// A folder of its own below the temporary one, removed in the end.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("sfumato_" + name + "_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
-  std::filesystem::path write(const std::string& name, std::string_view content) const {
-    const std::filesystem::path file = path_ / name;
-    std::ofstream(file, std::ios::binary).write(content.data(), static_cast<long>(content.size()));
-    return file;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace sfumato::test

@@ -1,7 +1,6 @@
 #include "volumes/vdb_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/random.h"
+#include "tests/base/temporary_folder.h"
 #include "volumes/procedural_smoke.h"
 
 #ifdef SFUMATO_OPENVDB
@@ -36,10 +36,7 @@ using base::ExitCode;
 
 class VdbFile : public testing::Test {
  protected:
-  VdbFile() { fs::create_directory(folder_); }
-  ~VdbFile() override { fs::remove_all(folder_); }
-
-  fs::path path(const std::string& name) const { return folder_ / name; }
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
 
   // The one line of the error that `act` throws, with the folder cut away.
   std::string errorOf(ExitCode code, const std::function<void()>& act) const {
@@ -49,7 +46,7 @@ class VdbFile : public testing::Test {
       EXPECT_EQ(error.exitCode, code) << error.what();
       std::string line = error.what();
       EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-      const std::string prefix = folder_.string() + "/";
+      const std::string prefix = folder_.path().string() + "/";
       if (line.starts_with(prefix)) line = line.substr(prefix.size());
       return line;
     }
@@ -58,13 +55,7 @@ class VdbFile : public testing::Test {
   }
 
  private:
-  static fs::path uniqueFolder() {
-    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::replace(name.begin(), name.end(), '/', '_');
-    return fs::temp_directory_path() / fmt::format("sfumato_vdb_{}_{}", getpid(), name);
-  }
-
-  const fs::path folder_ = uniqueFolder();
+  const test::TemporaryFolder folder_{"vdb"};
 };
 
 #ifdef SFUMATO_OPENVDB
@@ -133,6 +124,18 @@ void expectWellFormed(const DensityGrid& grid) {
                             z == grid.size.z - 1;
         ASSERT_TRUE(std::isfinite(value) && value >= 0 && (!margin || value == 0));
       }
+}
+
+TEST_F(VdbFile, IsReadOnceForAllItsGrids) {
+  auto flames = fogGrid("flames");
+  flames->tree().setValueOn({3, 4, 5}, 0.75f);
+  save(path("fire.vdb"), {smallCloud(), flames});
+  const DensityGrid density = readVdb(path("fire.vdb"), "density");
+  const VdbReader reader(path("fire.vdb"));
+  fs::remove(path("fire.vdb"));
+  EXPECT_EQ(reader.read("density").values, density.values);
+  EXPECT_EQ(valueAt(reader.read("flames"), 3, 4, 5), 0.75f);
+  EXPECT_EQ(reader.read("").values, density.values);
 }
 
 TEST_F(VdbFile, KeepsValuesNamePlaceAndTransformThroughWritingAndReading) {
