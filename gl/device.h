@@ -53,7 +53,8 @@ struct Limits {
   int framebufferLayers = 0;
   int viewportSize = 0;
   int64_t textureBufferTexels = 0;
-  int samples = 0;  // that every texture format can have
+  int samples = 0;       // that every texture format can have
+  int subpixelBits = 0;  // to which corners of triangles are rounded
   int timerBits = 0;
 };
 
