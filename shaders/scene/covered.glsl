@@ -1,6 +1,11 @@
 // Whether a fragment of a rectangle about a triangle (scene/covering.glsl) is in the triangle.
-flat in ivec4 coveringAB;
-flat in ivec2 coveringC;
+flat in ivec4 coveringCorners[5];
+flat in int coveringCount;
+
+ivec2 coveringCorner(int i) {
+  ivec4 two = coveringCorners[i >> 1];
+  return (i & 1) == 0 ? two.xy : two.zw;
+}
 
 // Or on the line, where it is one that takes its points: points on a line that two triangles share are in one of them.
 bool isLeftOf(ivec2 from, ivec2 to, ivec2 point) {
@@ -11,9 +16,20 @@ bool isLeftOf(ivec2 from, ivec2 to, ivec2 point) {
   return side > 0.0 || (side == 0.0 && takesPoints);
 }
 
-// `pixel`: of the whole image.
+// Pixels are those of the whole image.
 bool isCovered(ivec2 pixel) {
   ivec2 centre = pixel << SUBPIXEL_BITS;
-  return isLeftOf(coveringAB.xy, coveringAB.zw, centre) && isLeftOf(coveringAB.zw, coveringC, centre) &&
-         isLeftOf(coveringC, coveringAB.xy, centre);
+  ivec2 a = coveringCorner(0);
+  ivec2 b = coveringCorner(1);
+  bool covered = false;
+  for (int i = 2; i < coveringCount; ++i) {
+    ivec2 c = coveringCorner(i);
+    covered = covered || (isLeftOf(a, b, centre) && isLeftOf(b, c, centre) && isLeftOf(c, a, centre));
+    b = c;
+  }
+  return covered;
+}
+
+vec2 pixelsFromA(ivec2 pixel) {
+  return vec2((pixel << SUBPIXEL_BITS) - coveringCorners[0].xy) / float(1 << SUBPIXEL_BITS);
 }

@@ -7,15 +7,16 @@
 #include "shaders/shared/view_block.glsl"
 
 layout(triangles) in;
-layout(triangle_strip, max_vertices = 28) out;  // a clipped triangle has up to nine corners, which make seven triangles
+layout(triangle_strip, max_vertices = 4) out;
 
-// Of the triangle: where the centre of pixel (x, y) is at (x, y) << SUBPIXEL_BITS; counter-clockwise.
-flat out ivec4 coveringAB;
-flat out ivec2 coveringC;
+// Of what clipping leaves of the triangle, counter-clockwise, two in each vector; the centre of pixel (x, y) is at
+// (x, y) << SUBPIXEL_BITS.
+flat out ivec4 coveringCorners[5];
+flat out int coveringCount;
 
-// Emits what is interpolated, without perspective: the sum of the three vertices' values times `weights` is the value
-// divided by w; the sum of the weights is 1 / w.
-void emitInterpolated(dvec3 weights);
+// Hands on what is interpolated: at (x, y) pixels from the first corner the sum of the three vertices' values times weights * (1, x, y)
+// is the value divided by w, and the sum of these weights is 1 / w.
+void interpolate(dmat3 weights);
 
 struct Corner {
   vec4 clip;
@@ -71,54 +72,72 @@ int clipped(inout Corner polygon[MAX_CORNERS], int count, int plane) {
   return keptCount;
 }
 
-// Twice the area of a triangle, positive where it is counter-clockwise.
-double area(ivec2 a, ivec2 b, ivec2 c) {
-  dvec2 ab = dvec2(b - a);
-  dvec2 ac = dvec2(c - a);
-  return ab.x * ac.y - ab.y * ac.x;
-}
-
-void emitRectangleCorner(ivec2 pixel, dmat3 weightsFromPlace) {
-  dvec2 place = dvec2(2 * pixel) / dvec2(view.size.xy) - 1.0;
-  gl_Position = vec4(place, 0.0, 1.0);
-  gl_PrimitiveID = gl_PrimitiveIDIn;
-  emitInterpolated(weightsFromPlace * dvec3(place, 1.0));
-  EmitVertex();
-}
-
-// The rectangle of the pixels whose centres may be in the triangle; it winds as the triangle does.
-void emitRectangle(ivec2 a, ivec2 b, ivec2 c, dmat3 weightsFromPlace) {
-  double twiceArea = area(a, b, c);
-  if (twiceArea == 0.0) return;
-  ivec2 low = min(a, min(b, c)) + (1 << SUBPIXEL_BITS) - 1 >> SUBPIXEL_BITS;
-  ivec2 high = (max(a, max(b, c)) >> SUBPIXEL_BITS) + 1;
-  low = max(low, ivec2(0));
-  high = min(high, view.size.xy);
-  if (any(greaterThanEqual(low, high))) return;
-  bool flipped = twiceArea < 0.0;
-  for (int i = 0; i < 4; ++i) {
-    coveringAB = flipped ? ivec4(b, a) : ivec4(a, b);
-    coveringC = c;
-    ivec2 far = ivec2(i & 1, i >> 1);
-    emitRectangleCorner(low + (high - low) * (flipped ? far.yx : far), weightsFromPlace);
+// Twice the area, positive where the polygon is counter-clockwise.
+double area(Corner polygon[MAX_CORNERS], int count) {
+  double sum = 0.0;
+  for (int i = 2; i < count; ++i) {
+    dvec2 a = dvec2(polygon[i - 1].snapped - polygon[0].snapped);
+    dvec2 b = dvec2(polygon[i].snapped - polygon[0].snapped);
+    sum += a.x * b.y - a.y * b.x;
   }
-  EndPrimitive();
+  return sum;
+}
+
+// The rectangle of the pixels whose centres may be in the polygon; it winds as the polygon does.
+void emitRectangle(Corner polygon[MAX_CORNERS], int count, dmat3 weightsFromPlace) {
+  double twiceArea = area(polygon, count);
+  ivec2 a = polygon[0].snapped;
+  ivec2 low = a;
+  ivec2 high = a;
+  for (int i = 1; i < count; ++i) {
+    low = min(low, polygon[i].snapped);
+    high = max(high, polygon[i].snapped);
+  }
+  low = max(low + (1 << SUBPIXEL_BITS) - 1 >> SUBPIXEL_BITS, ivec2(0));
+  high = min((high >> SUBPIXEL_BITS) + 1, view.size.xy);
+  if (twiceArea == 0.0 || any(greaterThanEqual(low, high))) return;
+  bool clockwise = twiceArea < 0.0;
+  dvec2 pixel = 2.0 / dvec2(view.size.xy);
+  dvec2 placeOfA = (dvec2(a) / double(1 << SUBPIXEL_BITS) + 0.5) * pixel - 1.0;
+  dmat3 placeFromA = dmat3(dvec3(placeOfA, 1.0), dvec3(pixel.x, 0.0, 0.0), dvec3(0.0, pixel.y, 0.0));
+  dmat3 weights = weightsFromPlace * placeFromA;
+  ivec4 corners[5];
+  for (int i = 0; i < 5; ++i) {
+    int j = clockwise ? count - 2 * i : 2 * i;
+    corners[i] = ivec4(polygon[clamp(clockwise && i == 0 ? 0 : j, 0, 8)].snapped, polygon[clamp(clockwise ? j - 1 : j + 1, 0, 8)].snapped);
+  }
+  for (int i = 0; i < 4; ++i) {
+    ivec2 far = clockwise ? ivec2(i >> 1, i & 1) : ivec2(i & 1, i >> 1);
+    gl_Position = vec4(dvec2(low + (high - low) * far) * pixel - 1.0, 0.0, 1.0);
+    gl_PrimitiveID = gl_PrimitiveIDIn;
+    coveringCorners = corners;
+    coveringCount = count;
+    interpolate(weights);
+    EmitVertex();
+  }
+}
+
+// Bits of the planes that a vertex is outside of.
+int crossedPlanes() {
+  int planes = 0;
+  for (int plane = 0; plane < 6; ++plane) {
+    vec3 distances = vec3(inside(gl_in[0].gl_Position, plane), inside(gl_in[1].gl_Position, plane),
+                          inside(gl_in[2].gl_Position, plane));
+    if (any(lessThan(distances, vec3(0.0)))) planes |= 1 << plane;
+  }
+  return planes;
 }
 
 void main() {
   Corner polygon[MAX_CORNERS];
   int count = 3;
   for (int i = 0; i < 3; ++i) polygon[i] = vertexCorner(gl_in[i].gl_Position);
-  for (int plane = 0; plane < 6; ++plane) {
-    vec3 distances = vec3(inside(gl_in[0].gl_Position, plane), inside(gl_in[1].gl_Position, plane),
-                          inside(gl_in[2].gl_Position, plane));
-    if (any(lessThan(distances, vec3(0.0)))) count = clipped(polygon, count, plane);
-  }
+  for (int planes = crossedPlanes(); planes != 0; planes &= planes - 1)
+    count = clipped(polygon, count, findLSB(planes));
   dmat3 clipFromWeights = dmat3(gl_in[0].gl_Position.xyw, gl_in[1].gl_Position.xyw, gl_in[2].gl_Position.xyw);
   // From a place in normalised device coordinates (Olano and Greer 1997); of what only rounding gives an area, the first
   // vertex's alone.
   dmat3 weights = dmat3(dvec3(0.0), dvec3(0.0), dvec3(1.0 / double(gl_in[0].gl_Position.w), 0.0, 0.0));
   if (determinant(clipFromWeights) != 0.0) weights = inverse(clipFromWeights);
-  for (int i = 2; i < count; ++i)
-    emitRectangle(polygon[0].snapped, polygon[i - 1].snapped, polygon[i].snapped, weights);
+  emitRectangle(polygon, count, weights);
 }
