@@ -7,7 +7,7 @@ ivec2 coveringCorner(int i) {
   return (i & 1) == 0 ? two.xy : two.zw;
 }
 
-// Or on the line, where it is one that takes its points: points on a line that two triangles share are in one of them.
+// Of a line, or on it, where it is one that takes its points: of two triangles that share it one does.
 bool isLeftOf(ivec2 from, ivec2 to, ivec2 point) {
   dvec2 line = dvec2(to - from);
   dvec2 offset = dvec2(point - from);
@@ -16,7 +16,7 @@ bool isLeftOf(ivec2 from, ivec2 to, ivec2 point) {
   return side > 0.0 || (side == 0.0 && takesPoints);
 }
 
-// Pixels are those of the whole image.
+// `pixel`: of the whole image. Asks the triangles that drivers make of a polygon.
 bool isCovered(ivec2 pixel) {
   ivec2 centre = pixel << SUBPIXEL_BITS;
   ivec2 a = coveringCorner(0);
@@ -30,6 +30,7 @@ bool isCovered(ivec2 pixel) {
   return covered;
 }
 
-vec2 pixelsFromA(ivec2 pixel) {
+// From the first corner to a pixel's centre.
+vec2 coveringOffset(ivec2 pixel) {
   return vec2((pixel << SUBPIXEL_BITS) - coveringCorners[0].xy) / float(1 << SUBPIXEL_BITS);
 }

@@ -9,7 +9,7 @@ in vec2 vUv1[];
 in vec4 vColour[];
 flat in uint vDraw[];
 
-// Times (1, x, y) what is there at (x, y) pixels from A, divided by w.
+// Times (1, x, y): divided by w, x and y pixels from the first corner.
 flat out vec3 coveringOne;
 flat out mat3 coveringPositionView;
 flat out mat3 coveringNormalWorld;
