@@ -117,7 +117,6 @@ Limits readLimits() {
   limits.samples =
       std::min({glInteger(GL_MAX_SAMPLES), glInteger(GL_MAX_INTEGER_SAMPLES),
                 glInteger(GL_MAX_COLOR_TEXTURE_SAMPLES), glInteger(GL_MAX_DEPTH_TEXTURE_SAMPLES)});
-  limits.subpixelBits = glInteger(GL_SUBPIXEL_BITS);
   glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &limits.timerBits);
   return limits;
 }

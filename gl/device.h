@@ -53,8 +53,7 @@ struct Limits {
   int framebufferLayers = 0;
   int viewportSize = 0;
   int64_t textureBufferTexels = 0;
-  int samples = 0;       // that every texture format can have
-  int subpixelBits = 0;  // to which corners of triangles are rounded
+  int samples = 0;  // that every texture format can have
   int timerBits = 0;
 };
 

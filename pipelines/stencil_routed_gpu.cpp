@@ -74,8 +74,7 @@ const gl::Program& triangleProgram(gl::Device& device, std::vector<std::string> 
                                    bool covering) {
   if (covering) {
     stages.push_back(coveringStage);
-    defines = gl::joined(
-        defines, {{"COVERING", "1"}, {"SUBPIXEL_BITS", std::to_string(device.limits().subpixelBits)}});
+    defines.emplace_back("COVERING", "1");
   }
   return device.program(stages, defines);
 }

@@ -1,4 +1,6 @@
 // Whether a fragment of a rectangle about a triangle (scene/covering.glsl) is in the triangle.
+#include "shaders/scene/subpixels.glsl"
+
 flat in ivec4 coveringCorners[5];
 flat in int coveringCount;
 

@@ -1,9 +1,10 @@
 // Draws triangles so that they cover all samples of the pixels whose centres they cover, with multisampling switched on: a
 // geometry shader puts a rectangle of whole pixels in place of each, and a fragment asks isCovered() (scene/covered.glsl)
-// whether it is in the triangle. The viewport is that of the whole image. SUBPIXEL_BITS is the driver's.
+// whether it is in the triangle. The viewport is that of the whole image.
 //
 // These are to be the very pixels at which the driver makes fragments of the triangle, so it is clipped, projected and
 // rounded as Mesa's software drivers do it (gallium's draw module and llvmpipe's setup).
+#include "shaders/scene/subpixels.glsl"
 #include "shaders/shared/view_block.glsl"
 
 layout(triangles) in;
