@@ -4,14 +4,13 @@
 //
 // These are to be the very pixels at which the driver makes fragments of the triangle, so it is clipped, projected and
 // rounded as Mesa's software drivers do it (gallium's draw module and llvmpipe's setup).
-#include "shaders/scene/subpixels.glsl"
+#include "shaders/scene/covered_polygon.glsl"
 #include "shaders/shared/view_block.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
 
-// Of what clipping leaves of the triangle, counter-clockwise, two in each vector. The centre of pixel (x, y) is at
-// (x, y) << SUBPIXEL_BITS.
+// Of what clipping leaves of the triangle, two in each vector.
 flat out ivec4 coveringCorners[5];
 flat out int coveringCount;
 
@@ -28,6 +27,16 @@ struct Corner {
 #define MAX_CORNERS 9
 Corner polygon[MAX_CORNERS];
 int count = 3;
+bool clockwise = false;
+
+int cornerCount() {
+  return count;
+}
+
+// The first one is the first in either direction.
+ivec2 corner(int i) {
+  return i < count ? polygon[clockwise && i > 0 ? count - i : i].snapped : ivec2(0);
+}
 
 ivec2 snapped(vec2 window) {
   return ivec2(roundEven((window - 0.5) * float(1 << SUBPIXEL_BITS)));
@@ -97,11 +106,6 @@ double area() {
   return sum;
 }
 
-// Corners as they are handed on, beginning with the first in either direction.
-ivec2 corner(int i, bool clockwise) {
-  return i < count ? polygon[clockwise && i > 0 ? count - i : i].snapped : ivec2(0);
-}
-
 // The vertices' weights from (x, y, 1) in normalised device coordinates (Olano and Greer 1997, section 3). Where only
 // rounding gives the triangle an area, it looks like its first vertex all over.
 dmat3 weightsFromPlace() {
@@ -112,7 +116,7 @@ dmat3 weightsFromPlace() {
 }
 
 // The rectangle of the pixels from low to before high. It winds as the polygon does, so that culling is what it was.
-void emitRectangle(ivec2 low, ivec2 high, bool clockwise) {
+void emitRectangle(ivec2 low, ivec2 high) {
   dvec2 pixel = 2.0 / dvec2(view.size.xy);
   dvec2 first = (dvec2(polygon[0].snapped) / double(1 << SUBPIXEL_BITS) + 0.5) * pixel - 1.0;
   dmat3 placeFromFirst = dmat3(dvec3(first, 1.0), dvec3(pixel.x, 0.0, 0.0), dvec3(0.0, pixel.y, 0.0));
@@ -121,8 +125,7 @@ void emitRectangle(ivec2 low, ivec2 high, bool clockwise) {
     ivec2 far = clockwise ? ivec2(i >> 1, i & 1) : ivec2(i & 1, i >> 1);
     gl_Position = vec4(dvec2(low + (high - low) * far) * pixel - 1.0, 0.0, 1.0);
     gl_PrimitiveID = gl_PrimitiveIDIn;
-    for (int j = 0; j < 5; ++j)
-      coveringCorners[j] = ivec4(corner(2 * j, clockwise), corner(2 * j + 1, clockwise));
+    for (int j = 0; j < 5; ++j) coveringCorners[j] = ivec4(corner(2 * j), corner(2 * j + 1));
     coveringCount = count;
     interpolate(weights);
     EmitVertex();
@@ -142,5 +145,8 @@ void main() {
   low = max(low + (1 << SUBPIXEL_BITS) - 1 >> SUBPIXEL_BITS, ivec2(0));
   high = min((high >> SUBPIXEL_BITS) + 1, view.size.xy);
   double twiceArea = area();
-  if (twiceArea != 0.0 && all(lessThan(low, high))) emitRectangle(low, high, twiceArea < 0.0);
+  if (twiceArea == 0.0 || any(greaterThanEqual(low, high))) return;
+  clockwise = twiceArea < 0.0;
+  bool onePixel = high - low == ivec2(1);
+  if (!onePixel || isCovered(low)) emitRectangle(low, high);
 }
