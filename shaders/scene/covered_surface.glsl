@@ -1,6 +1,5 @@
-// What shaders/scene/surface.vert says of a fragment, where scene/covering.geom stood in between.
+// What shaders/scene/surface.vert says of a fragment, where scene/covering.geom stood in between: for scene/material.glsl.
 #include "shaders/scene/covered.glsl"
-#include "shaders/shared/view_block.glsl"
 
 flat in vec3 coveringOne;
 flat in mat3 coveringPositionView;
