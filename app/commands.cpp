@@ -178,9 +178,13 @@ void addQuality(CLI::App& command, RenderOptions& options) {
   add("--step", options.stepVoxels, "March through smoke in such steps: 0.01 to 100, else by --quality")
       ->type_name("VOXELS")
       ->check(between(0.01, 100.0));
+  add("--smoke-spacing", options.smokeSpacing,
+      "March once for 2 x 2 or 4 x 4 pixels where rays stay so close: 0 (never) to 100, else by --quality")
+      ->type_name("VOXELS")
+      ->check(between(0.0, 100.0));
   command
       .add_flag("--half-res-smoke", options.halfResolutionSmoke,
-                "March smoke once for 2 x 2 pixels that see as far: faster, less sharp")
+                "March smoke once for 2 x 2 pixels at least: faster, less sharp")
       ->group("Quality");
   add("--shadow-res", options.shadowResolution,
       "Texels a side of every deep shadow map: 32 to 16384, else what suits")

@@ -61,6 +61,7 @@ struct RenderOptions {
   std::string quality = "medium";
   std::optional<double> stepVoxels;
   std::optional<int> shadowResolution;
+  std::optional<double> smokeSpacing;
   bool halfResolutionSmoke = false;
   std::optional<double> shadowError;
   std::string shadowFilter;   // empty: by quality

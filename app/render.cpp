@@ -176,7 +176,8 @@ pipelines::Quality chooseQuality(const RenderOptions& options) {
     quality.shadowMemory = base::bytesNamed(options.shadowMemory, "--shadow-memory");
   quality.scatteringOctaves = options.scatteringOctaves;
   quality.depthsFirst = options.depthsFirst;
-  if (options.halfResolutionSmoke) quality.halfResolutionSmoke = true;
+  quality.smokeRaySpacing = options.smokeSpacing.value_or(quality.smokeRaySpacing);
+  quality.halfResolutionSmoke = options.halfResolutionSmoke;
   if (!options.lists.empty()) quality.lists.strategy = lists::strategyNamed(options.lists);
   if (!options.listMemory.empty())
     quality.lists.budgetBytes = base::bytesNamed(options.listMemory, "--list-memory");
@@ -223,6 +224,7 @@ image::Metadata metadata(const RenderOptions& options, const Shot& shot, const s
                                     pipelines::shadowFilters().nameOf(shot.quality.surfaceShadows),
                                     pipelines::shadowFilters().nameOf(shot.quality.smokeShadows)));
     result.emplace_back("sfumato:throughput_cutoff", fmt::format("{}", shot.quality.throughputCutoff));
+    result.emplace_back("sfumato:smoke_spacing_voxels", fmt::format("{}", shot.quality.smokeRaySpacing));
   }
   if (shot.scene.ambient != glm::dvec3(0))
     result.emplace_back("sfumato:ambient", numbers(shot.scene.ambient));
@@ -255,6 +257,7 @@ void checkPipeline(const RenderOptions& options) {
       {"--deep", !options.deep.empty(), core},
       {"--deep-shadow", !options.deepShadows.empty(), core},
       {"--half-res-smoke", options.halfResolutionSmoke, core},
+      {"--smoke-spacing", options.smokeSpacing.has_value(), core},
       {"--reference", options.reference, core},
       {"--shadows", options.shadows != usual.shadows, !core},
       {"--interlace", options.interlace != usual.interlace, !core},

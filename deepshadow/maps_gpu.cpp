@@ -461,6 +461,8 @@ size_t Maps::arrange(const MapInputs& inputs) {
   projections_.clear();
   size_t texels = 0;
   int faces = 0;
+  std::vector<glm::dmat4> boxes;
+  for (const volumes::MediumExtent& medium : inputs.volumes.extents()) boxes.push_back(medium.worldFromUnit);
   for (size_t i = 0; i < inputs.lights.size(); ++i) {
     LightMap& map = lightMaps_.emplace_back();
     projections_.emplace_back();
@@ -474,6 +476,7 @@ size_t Maps::arrange(const MapInputs& inputs) {
     const int smokeSide = smokeSideOf(inputs, i);
     for (FaceProjection& face : projections_.back()) {
       face.smokeSide = smokeSide;
+      face.smoke = smokePart(face, boxes);
       map.texels += texelsOf(face);
       map.smokeTexels += squared(smokeSide);
     }

@@ -56,6 +56,31 @@ int smokeSide(const FaceProjection& face, const dmat4& worldFromUnit, double wid
   return std::max(static_cast<int>(texels), (face.side - 1) / leastSmokeShare + 1);
 }
 
+glm::dvec4 smokePart(const FaceProjection& face, std::span<const dmat4> boxes) {
+  const dvec2 scale = double(face.side) / (2.0 * face.halfExtent);
+  dvec2 low(infinity);
+  dvec2 high(-infinity);
+  for (const dmat4& worldFromUnit : boxes) {
+    const dmat4 faceFromUnit = glm::inverse(face.worldFromFace) * worldFromUnit;
+    dvec2 boxLow(infinity);
+    dvec2 boxHigh(-infinity);
+    int before = 0;  // corners
+    for (int corner = 0; corner < 8; ++corner) {
+      const dvec3 p(faceFromUnit * glm::dvec4(corner & 1, corner >> 1 & 1, corner >> 2, 1));
+      before += -p.z > 0;
+      const dvec2 xy = face.orthographic ? dvec2(p) : dvec2(p) / std::max(-p.z, 1e-30);
+      boxLow = glm::min(boxLow, xy);
+      boxHigh = glm::max(boxHigh, xy);
+    }
+    if (!face.orthographic && before == 0) continue;
+    if (!face.orthographic && before < 8) return {0, 0, face.side, face.side};
+    low = glm::min(low, boxLow);
+    high = glm::max(high, boxHigh);
+  }
+  const double margin = 1 + static_cast<double>(face.side) / std::max(face.smokeSide, 1);
+  return {low * scale + face.side / 2.0 - margin, high * scale + face.side / 2.0 + margin};
+}
+
 FaceProjection directionalFace(const dvec3& direction, int side, std::span<const dvec3> receivers,
                                std::span<const dvec3> casters) {
   const dmat4 rotation = lookingAlong(direction, dvec3(0));
@@ -106,6 +131,7 @@ shared::ShadowFace faceData(const FaceProjection& face, size_t firstTexel) {
   const glm::dvec2 scale = static_cast<double>(face.side) / (2.0 * face.halfExtent);
   data.projection = glm::vec4(glm::vec2(scale), glm::vec2(face.side / 2.0));
   data.texels = {static_cast<int>(firstTexel), face.side, face.orthographic ? 0 : 1, face.smokeSide};
+  data.smoke = face.smoke;
   return data;
 }
 

@@ -17,6 +17,7 @@ struct FaceProjection {
   glm::dvec2 halfExtent{1.0};  // of the map at depth 1 (perspective) or anywhere (orthographic), m
   int side = 0;                // texels
   int smokeSide = 0;           // texels of smoke; 0: none
+  glm::dvec4 smoke{0};         // where they hold any: see ShadowFace
 };
 
 // The side of a face for a map of `resolution` texels: a multiple of 16, at least 32, so that the faces of a
@@ -26,6 +27,10 @@ int faceSide(int resolution);
 // Texels a side that a face needs for smoke in a box (the image of the unit cube), so that none is wider than
 // `width` metres in what is lit of it, which is up to `reach` metres deep.
 int smokeSide(const FaceProjection& face, const glm::dmat4& worldFromUnit, double width, double reach);
+
+// Which part of a face, in texels of surfaces, smoke in some boxes (images of the unit cube) can be before,
+// with what filters add: from x, y to z, w. Its smokeSide is known.
+glm::dvec4 smokePart(const FaceProjection& face, std::span<const glm::dmat4> boxes);
 
 // Texels of a face whose lists are built together.
 constexpr size_t windowTexels = size_t{1} << 20;

@@ -215,8 +215,8 @@ void Texture::read(std::span<std::byte> texels) const {
 }
 
 BufferTexture::BufferTexture(const Device& device, const Buffer& buffer, BufferFormat format) {
-  constexpr GLenum internals[] = {GL_R32UI, GL_RG32UI, GL_RGB32UI, GL_RGBA32F};
-  const size_t texelBytes = 4 * (static_cast<size_t>(format) + 1);
+  constexpr GLenum internals[] = {GL_R32UI, GL_RG32UI, GL_RGB32UI, GL_RGBA32UI, GL_RGBA32F};
+  const size_t texelBytes = 4 * std::min<size_t>(static_cast<size_t>(format) + 1, 4);
   const auto limit = static_cast<size_t>(device.limits().textureBufferTexels) * texelBytes;
   if (buffer.bytes() > limit)
     fail(ExitCode::Memory, "a buffer of {}, this device reads {} at once: lower --res or --shadow-res",

@@ -34,7 +34,7 @@ enum class Format {
   Depth32F,
   Depth32FStencil8
 };
-enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32F };
+enum class BufferFormat { R32UI, RG32UI, RGB32UI, RGBA32UI, RGBA32F };
 enum class Filter { Nearest, Linear };
 using scene::Minify;
 using scene::Wrap;

@@ -10,6 +10,7 @@
 #include "pipelines/aovs_gpu.h"
 #include "pipelines/gbuffer_gpu.h"
 #include "pipelines/receivers_gpu.h"
+#include "pipelines/smoke_rays.h"
 #include "pipelines/surface_lists_gpu.h"
 #include "scene/camera_view.h"
 #include "shaders/shared/aovs.h"
@@ -54,6 +55,7 @@ struct ResolveInputs {
   const Quality& quality;
   const AmbientOcclusion* occlusion;  // of the image, or null
   Tile window;
+  int smokeBlockSide;  // pixels
   bool countLookups;
   DeepLimits deepLimits;
 };
@@ -104,8 +106,9 @@ Split splitPixels(gl::Device& device, const SplitInputs& inputs) {
 
 // Radiance, and transmittance where that is wanted, of the window's pixels. A split pixel is the mean of its
 // samples.
-void readRays(const gl::Buffer& rays, const SplitRays& ofPixels, size_t rayCount, const Tile& window,
-              Frame& frame) {
+void readRays(gl::Device& device, const gl::Buffer& rays, const SplitRays& ofPixels, size_t rayCount,
+              const Tile& window, Frame& frame) {
+  const Profiler::Scope time(device.profiler(), "read back");
   const auto states = rays.readValues<shared::RayState>(rayCount);
   const auto read = [&](auto colourOf, image::Image& image) {
     for (size_t pixel = 0; pixel < window.pixels(); ++pixel) {
@@ -131,6 +134,13 @@ void readRays(const gl::Buffer& rays, const SplitRays& ofPixels, size_t rayCount
         wanted->second);
 }
 
+void add(const glm::u64vec4& counted, Lookups& all) {
+  all.lights += counted.x;
+  all.shadows += counted.y;
+  all.steps += counted.z;
+  all.jumpedSteps += counted.w;
+}
+
 // Adds what the window's pixels looked up; that of a split pixel is the sum over its samples.
 void readLookups(const gl::Buffer& lookups, const SplitRays& ofPixels, size_t rayCount, Lookups& all) {
   const auto ofRays = lookups.readValues<glm::uvec4>(rayCount);
@@ -138,10 +148,7 @@ void readLookups(const gl::Buffer& lookups, const SplitRays& ofPixels, size_t ra
   for (size_t pixel = 0; pixel < pixels; ++pixel) {
     glm::u64vec4 sum(0);
     ofPixels.forEachRay(pixel, [&](size_t ray) { sum += ofRays[ray]; });
-    all.lights += sum.x;
-    all.shadows += sum.y;
-    all.steps += sum.z;
-    all.jumpedSteps += sum.w;
+    add(sum, all);
     all.mostLights = std::max<size_t>(all.mostLights, sum.x);
     all.mostShadows = std::max<size_t>(all.mostShadows, sum.y);
   }
@@ -191,24 +198,54 @@ class Walk {
   gl::Buffer counters_;
 };
 
-// Smoke that was marched for each block of 2 x 2 pixels of the window, where that was wanted.
+// Smoke that was marched for blocks of the window's pixels, where rays may be so far apart.
 struct SmokeBlocks {
-  gl::Buffer states;
-  gl::BufferTexture texture;
+  gl::Buffer blocks;
+  gl::Buffer knots;
+  gl::BufferTexture blockTexture;
+  gl::BufferTexture knotTexture;
+
+  void bind() const {
+    blockTexture.bind(TEXTURE_SMOKE_BLOCKS);
+    knotTexture.bind(TEXTURE_SMOKE_KNOTS);
+  }
 };
 
-SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, const gl::ShaderDefines& defines,
+constexpr size_t knotBytes = sizeof(glm::uvec4);
+
+size_t blocksAlong(int first, int pixels, int side) {
+  return static_cast<size_t>((first + pixels + side - 1) / side - first / side);
+}
+
+SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, int side, gl::ShaderDefines defines,
                         FrameStatistics& statistics) {
+  const Profiler::Scope time(device.profiler(), "smoke");
+  const size_t count = blocksAlong(inputs.window.x, inputs.window.width, side) *
+                       blocksAlong(inputs.window.y, inputs.window.height, side);
+  if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
   const gl::Program& program = device.program({"pipelines/smoke_blocks.comp"}, defines);
-  const size_t count = static_cast<size_t>((inputs.window.width + 1) / 2) *
-                       static_cast<size_t>((inputs.window.height + 1) / 2);
-  SmokeBlocks blocks;
-  blocks.states = gl::Buffer(device, "smoke blocks", count * sizeof(shared::RayState));
-  blocks.texture = gl::BufferTexture(device, blocks.states, gl::BufferFormat::RGBA32F);
+  const size_t mostKnots = std::min(static_cast<size_t>(device.limits().textureBufferTexels),
+                                    static_cast<size_t>(device.limits().storageBlockBytes) / knotBytes);
   shared::ResolveParams params = resolveParams(inputs);
   params.options.w = static_cast<int>(count);
-  statistics.cutWalks += Walk(device, inputs, blocks.states).dispatch(program, params).boundHit;
-  return blocks;
+  params.blocks = {side, static_cast<int>(mostKnots / count), 1, 0};
+  SmokeBlocks smoke;
+  smoke.blocks = gl::Buffer(device, "smoke blocks", count * sizeof(shared::SmokeBlock));
+  Walk walk(device, inputs, smoke.blocks);
+  gl::Buffer lookups(device, "lookups", inputs.countLookups ? count * sizeof(glm::uvec4) : 0);
+  smoke.knots = gl::Buffer(device, "smoke knots", walk.dispatch(program, params).groups * knotBytes);
+  params.blocks.z = 0;
+  for (shared::ResolveCounters counted{.unfinished = 1}; counted.unfinished > 0; params.options.x = 0) {
+    smoke.knots.bindStorage(STORAGE_SMOKE_KNOTS);
+    lookups.bindStorage(STORAGE_LOOKUPS);
+    counted = walk.dispatch(program, params);
+    statistics.cutWalks += counted.boundHit;
+  }
+  if (inputs.countLookups)
+    for (const glm::uvec4& ofBlock : lookups.readValues<glm::uvec4>(count)) add(ofBlock, statistics.lookups);
+  smoke.blockTexture = gl::BufferTexture(device, smoke.blocks, gl::BufferFormat::RGBA32F);
+  smoke.knotTexture = gl::BufferTexture(device, smoke.knots, gl::BufferFormat::RGBA32UI);
+  return smoke;
 }
 
 // Lights the window's pixels into the frame; false when their rays do not fit one buffer.
@@ -218,9 +255,9 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
   gl::ShaderDefines defines = resolveDefines(inputs.scene, samples, inputs.quality);
-  SmokeBlocks blocks;
-  if (inputs.quality.halfResolutionSmoke && !inputs.scene.volumes().empty() && !frame.deep) {
-    blocks = marchBlocks(device, inputs, defines, frame.statistics);
+  SmokeBlocks smoke;
+  if (inputs.smokeBlockSide > 1 && !frame.deep) {
+    smoke = marchBlocks(device, inputs, inputs.smokeBlockSide, defines, frame.statistics);
     defines.emplace_back("SMOKE_BLOCKS", "1");
   }
   if (inputs.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
@@ -234,14 +271,16 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const SplitRays ofPixels{split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1};
 
   const auto walkAll = [&](size_t count) {
+    const Profiler::Scope time(device.profiler(), "walk");
     shared::ResolveParams params = resolveParams(inputs);
     params.options.w = static_cast<int>(count);
+    params.blocks.x = inputs.smokeBlockSide;
     int dispatches = 0;
     shared::ResolveCounters counted{};
     do {
       base::check(dispatches < maxResolveDispatches, "the resolve ends");
       lookups.bindStorage(STORAGE_LOOKUPS);
-      blocks.texture.bind(TEXTURE_SMOKE_BLOCKS);
+      smoke.bind();
       if (inputs.occlusion) inputs.occlusion->bind();
       counted = walk.dispatch(program, params);
       frame.statistics.cutWalks += counted.boundHit;
@@ -255,7 +294,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   else
     walkAll(rayCount);
   frame.statistics.splitPixels += split.count;
-  readRays(rays, ofPixels, rayCount, inputs.window, frame);
+  readRays(device, rays, ofPixels, rayCount, inputs.window, frame);
   if (inputs.countLookups) readLookups(lookups, ofPixels, rayCount, frame.statistics.lookups);
   return true;
 }
@@ -269,6 +308,7 @@ struct TileInputs {
   shared::ViewParams view;            // of the whole image
   int width = 0;
   int height = 0;
+  int smokeBlockSide = 1;  // pixels
   bool countLookups = false;
   DeepLimits deepLimits;
 };
@@ -349,7 +389,8 @@ class TilePainter {
     const Profiler::Scope time(device_.profiler(), "resolve");
     if (!resolve(device_,
                  {view_, gbuffer, surfaces->lists, split, *lightLists, inputs_.shadows, inputs_.scene,
-                  inputs_.quality, inputs_.occlusion, window, inputs_.countLookups, inputs_.deepLimits},
+                  inputs_.quality, inputs_.occlusion, window, inputs_.smokeBlockSide, inputs_.countLookups,
+                  inputs_.deepLimits},
                  frame_))
       return false;
     const size_t ofRays = frame_.aovs.count(Aov::Transmittance);
@@ -408,8 +449,17 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   for (const size_t light : options.deepShadows)
     frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
   const auto occlusion = scene_.drawOcclusion(view, quality.ambientOcclusion);
-  const TileInputs inputs{scene_,      shadows, quality, occlusion ? &*occlusion : nullptr,
-                          view.params, width,   height,  options.countLookups,
+  const bool walked = quality.walkedSmokeNodes > 0;
+  const int side = walked ? 1 : smokeBlockSide(scene_.volumes().extents(), view.params, quality);
+  const TileInputs inputs{scene_,
+                          shadows,
+                          quality,
+                          occlusion ? &*occlusion : nullptr,
+                          view.params,
+                          width,
+                          height,
+                          side,
+                          options.countLookups,
                           deepLimits};
   TilePainter painter(scene_.device(), inputs, options.windowPixels, frame);
   for (const Tile& tile : tilesOf(width, height, options.tilePixels)) {

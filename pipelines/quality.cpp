@@ -34,13 +34,19 @@ Quality choose(const std::string& name) {
             .shadowResolution = 512,
             .stepVoxels = 3.0,
             .shadowError = 1.0 / 128,
+            .smokeRaySpacing = 3.2,
             .throughputCutoff = 1e-2};
   if (name == "medium")
-    return {.shadowResolution = 1024, .stepVoxels = 1.5, .shadowError = 1.0 / 512, .throughputCutoff = 1e-3};
+    return {.shadowResolution = 1024,
+            .stepVoxels = 1.5,
+            .shadowError = 1.0 / 512,
+            .smokeRaySpacing = 1.6,
+            .throughputCutoff = 1e-3};
   if (name == "high")
     return {.shadowResolution = 2048,
             .stepVoxels = 1.0,
             .shadowError = 1.0 / 1024,
+            .smokeRaySpacing = 0.8,
             .throughputCutoff = 1e-4,
             .surfaceShadows = ShadowFilter::Soft,
             .smokeShadows = ShadowFilter::Bilinear};

@@ -26,8 +26,11 @@ struct Quality {
   // where they would not fit; the same of the error.
   bool exactShadowResolution = true;
   bool exactShadowError = true;
-  size_t shadowMemory = 0;           // bytes of all maps together; 0: what the device reads
-  bool halfResolutionSmoke = false;  // marched once for 2 x 2 pixels where these see about as far
+  size_t shadowMemory = 0;  // bytes of all maps together; 0: what the device reads
+  // Smoke is marched once for 2 x 2 or 4 x 4 pixels where the rays are at most so many voxels apart then; 0: for
+  // every pixel. Only the core pipeline asks.
+  double smokeRaySpacing = 0;
+  bool halfResolutionSmoke = false;  // for 2 x 2 pixels at least
   bool depthsFirst = false;          // opaque surfaces are drawn twice, depths alone first
   double throughputCutoff = 1e-3;    // a ray ends where less than this of what is behind would be seen
   ShadowFilter surfaceShadows = ShadowFilter::Bilinear;

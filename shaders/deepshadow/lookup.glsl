@@ -206,5 +206,6 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
     }
   }
   vec3 through = told > 0.0 ? sum / told : doubtful;
-  return through * smokeTransmittance(face, place, ownDepth - rounding);
+  bool smoky = all(greaterThan(place, face.smoke.xy)) && all(lessThan(place, face.smoke.zw));
+  return smoky ? through * smokeTransmittance(face, place, ownDepth - rounding) : through;
 }

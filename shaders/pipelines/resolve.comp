@@ -2,7 +2,7 @@
 // the opaque depth, and lights both through light lists and deep shadow maps. A ray that has done much work keeps
 // its state and goes on in the next dispatch, because some drivers end long loops silently.
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
-// objects that do not shadow themselves. SMOKE_BLOCKS is defined when blocks of pixels were marched before. DEEP is
+// objects that do not shadow themselves. SMOKE_BLOCKS is defined when blocks of pixels marched the smoke before. DEEP is
 // defined when what each ray meets is recorded for a deep image; then the rays are those of a list. AMBIENT is defined
 // when there is ambient light, SSAO when what takes it from opaque surfaces was drawn before.
 #include "shaders/pipelines/accessibility.glsl"
@@ -87,14 +87,21 @@ void main() {
   PixelRay ray = pixelRay(plane, place.split ? 0.5 : 1.0);
   ray.lights = lightRun(lightCell(place.pixel, view.window));
 
-#ifdef SMOKE
-  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
-#endif
-
 #ifdef SMOKE_BLOCKS
-  bool smoky = media.rangeOfAll.x < media.rangeOfAll.y;
-  if (first && smoky && !place.split && surfaces.count == 0u && takeBlocks(place.pixel, media, radiance, throughput))
-    depth = media.rangeOfAll.y;
+  MediaRay media = mediaRay(ray.origin, ray.perDepth, view.depthRange.xy, params.march.x);
+  vec2 position = vec2(place.pixel) + (place.split ? samplePosition(params, place.number) : vec2(0.5));
+  float smokeEnd = media.rangeOfAll.y;
+  BlockTaps taps;
+  SmokeSeen seenBefore = SmokeSeen(vec3(0.0), vec3(1.0));
+  float nearest = surfaces.count != 0u ? listDepth(surfaces.first) : rayEnd;
+  bool smoky = media.rangeOfAll.x < min(smokeEnd, rayEnd);
+  while (smoky) {
+    taps = blockTaps(position, min(rayEnd, smokeEnd), min(rayEnd, nearest) < smokeEnd);
+    if (!first) seenBefore = seenTo(taps, depth);
+    smoky = false;
+  }
+#elif defined(SMOKE)
+  MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
 #endif
 
   bool walking = true;
@@ -111,6 +118,16 @@ void main() {
 #ifdef SMOKE
     float limit = min(nextSurface, media.rangeOfAll.y);
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
+#ifdef SMOKE_BLOCKS
+    while (depth < limit) {
+      SmokeSeen seenNow = seenTo(taps, limit);
+      vec3 share = throughput / max(seenBefore.passed, 1e-6);
+      radiance += share * (seenNow.radiance - seenBefore.radiance);
+      throughput = share * seenNow.passed;
+      seenBefore = seenNow;
+      depth = limit;
+    }
+#else
     // All of the smoke before the next surface: some drivers run the code of surfaces in each pass of the loop around it,
     // whether or not a lane is at one.
     bool marching = depth < limit;
@@ -124,6 +141,7 @@ void main() {
       marching = depth < limit && maxComponent(throughput) >= params.march.y && work < uint(RESOLVE_WORK_LIMIT);
     }
     atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
+#endif
 #endif
     if (atSurface) {
       bool listed = passed < surfaces.count;
@@ -139,7 +157,7 @@ void main() {
         seen = opaque < view.depthRange.y;
       }
       float at = listed ? nextSurface : opaque;
-      if (seen) {
+      while (seen) {
         Surface surface = unpackSurface(stored);
         vec2 position = vec2(place.pixel) + (place.split ? samplePosition(params, place.number) : vec2(0.5));
         float accessibility =
@@ -148,6 +166,7 @@ void main() {
         radiance += added;
         if (listed) throughput *= surfacePass(stored);
         recordEvent(at, at, added, listed ? throughput : vec3(0.0));
+        seen = false;
       }
       if (listed) depth = max(depth, nextSurface);
       ++passed;

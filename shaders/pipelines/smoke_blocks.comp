@@ -1,49 +1,160 @@
-// Marches the smoke before the opaque depth once for each block of 2 x 2 pixels, along the ray through its middle: where
-// the four see about as far into the smoke, no translucent surface stands in them, and none is walked sample by sample.
+// Marches the smoke once for each block of pixels, along the ray through its middle, as far as any of them sees. Where
+// surfaces stand in the smoke, knots are kept on the way. A block that has done much work goes on in the next dispatch.
+// SAMPLES is how many a pixel of the G-buffer has.
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/smoke_blocks.glsl"
+#include "shaders/pipelines/smoke_steps.glsl"
 #include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/linear_id.glsl"
 
-layout(std430, binding = STORAGE_RAYS) writeonly buffer Blocks {
-  RayState blocks[];
+layout(std430, binding = STORAGE_RAYS) buffer Blocks {
+  SmokeBlock blocks[];
+};
+layout(std430, binding = STORAGE_SMOKE_KNOTS) writeonly buffer Knots {
+  uvec4 smokeKnotsWritten[];
 };
 layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
   uint pixelGroups[];
 };
+#ifdef COUNT_LOOKUPS
+layout(std430, binding = STORAGE_LOOKUPS) buffer BlockLookups {
+  uvec4 blockLookups[];  // see resolve.comp
+};
+#endif
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
+
+
+// Of the pixels of a block.
+struct Pixels {
+  float farthest;  // opaque depth
+  bool stop;       // surfaces stand in the smoke
+};
+
+Pixels pixelsOf(ivec2 first, float smokeEnd) {
+  Pixels pixels = Pixels(0.0, false);
+  int side = params.blocks.x;
+  for (int i = 0; i < side * side; ++i) {
+    ivec2 pixel = first + ivec2(i % side, i / side);
+    if (!hasList(view, pixel)) continue;
+    uint list = listOfPixel(view, pixel);
+    int samples = pixelGroups[list] != 0u ? SAMPLES : 1;
+    for (int s = 0; s < samples; ++s) {
+      float depth = texelFetch(opaqueDepth, pixel - view.tile.xy, s).r;
+      pixels.farthest = max(pixels.farthest, depth);
+      pixels.stop = pixels.stop || depth < smokeEnd;
+    }
+    pixels.stop = pixels.stop || listRun(list).count != 0u;
+  }
+  return pixels;
+}
+
+// Of one block.
+struct KnotWriter {
+  uint first;
+  uint count;   // that were written
+  uint room;
+  float apart;  // marches of STEPS from one knot to the next, so that there is room for all
+  float since;  // marches since the last one
+  float depth;  // behind the last of them
+};
+
+void writeKnot(inout KnotWriter knots, float depth, SmokeSeen seen) {
+  vec3 radiance = min(seen.radiance, 65504.0);
+  smokeKnotsWritten[knots.first + knots.count] =
+      uvec4(floatBitsToUint(depth), packHalf2x16(radiance.rg), packHalf2x16(vec2(radiance.b, seen.passed.r)),
+            packHalf2x16(seen.passed.gb));
+  ++knots.count;
+}
+
+// After some steps that end at `depth`, with what was seen before them and behind: a knot, or where they take much of the
+// light one for each, as well as where they begin. `left`: marches of STEPS that follow at most.
+void writeSteps(inout KnotWriter knots, Steps steps, SmokeSeen before, SmokeSeen after, float depth, bool last, float left) {
+  const float MUCH = 0.01;
+  vec3 taken = before.passed - after.passed;
+  uint kept = uint(left / knots.apart) + 2u;  // for those that follow
+  float begin = steps.depth[0] - 0.5 * steps.size[0];
+  bool parted = begin > knots.depth + 0.01 * steps.size[0];
+  bool each = maxComponent(taken) > MUCH;
+  knots.since += 1.0;
+  if (parted && (each || knots.since >= knots.apart) && knots.count + kept + 1u < knots.room) writeKnot(knots, begin, before);
+  for (int k = 0; each && k < steps.count - 1 && knots.count + kept + 1u < knots.room; ++k) {
+    vec3 passed = vec3(steps.passed[0][k], steps.passed[1][k], steps.passed[2][k]);
+    vec3 share = (before.passed - passed) / max(taken, 1e-6);
+    writeKnot(knots, steps.depth[k] + 0.5 * steps.size[k], SmokeSeen(mix(before.radiance, after.radiance, share), passed));
+  }
+  if ((each || last || knots.since >= knots.apart) && knots.count + 1u < knots.room) {
+    writeKnot(knots, depth, after);
+    knots.since = max(knots.since - knots.apart, 0.0);
+  }
+  knots.depth = depth;
+}
+
+// Steps of a march up to a depth, about.
+float stepsTo(MediaRay media, float end) {
+  float steps = 0.0;
+  for (int v = 0; v < MARCHED; ++v) steps += max(min(media.range[v].y, end) - media.range[v].x, 0.0) / media.stride[v];
+  return steps;
+}
 
 void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
-  int across = smokeBlockCount().x;
-  ivec2 first = view.window.xy + 2 * ivec2(int(number) % across, int(number) / across);
-  PixelRay ray = pixelRay(imagePlane(view, vec2(first) + 1.0), 2.0);
-  ray.lights = lightRun(lightCell(first, view.window));
+  int side = params.blocks.x;
+  ivec4 ofWindow = blocksOfWindow();
+  ivec2 first = side * (ofWindow.xy + ivec2(int(number) % ofWindow.z, int(number) / ofWindow.z));
+  PixelRay ray = pixelRay(imagePlane(view, vec2(first) + 0.5 * float(side)), float(side));
   MediaRay media = mediaRay(ray.origin, ray.perDepth, view.depthRange.xy, params.march.x);
+  vec2 range = media.rangeOfAll;
+  bool smoky = range.x < range.y;
+  Pixels pixels = Pixels(0.0, false);
+  if (smoky) pixels = pixelsOf(first, range.y);
 
-  bool alike = media.rangeOfAll.x < media.rangeOfAll.y;
-  vec2 reach = vec2(3e38, -3e38);
-  for (int i = 0; i < 4; ++i) {
-    ivec2 pixel = first + ivec2(i & 1, i >> 1);
-    bool whole = hasList(view, pixel);
-    uint list = whole ? listOfPixel(view, pixel) : 0u;
-    alike = alike && whole && pixelGroups[list] == 0u && listRun(list).count == 0u;
-    float depth = min(texelFetch(opaqueDepth, pixel - view.tile.xy, 0).r, media.rangeOfAll.y);
-    reach = vec2(min(reach.x, depth), max(reach.y, depth));
+  float slack = 3e38;
+  for (int v = 0; v < MARCHED; ++v) slack = min(slack, float(STEPS) * media.stride[v]);
+  float reach = min(pixels.farthest, range.y);
+  bool stops = smoky && pixels.stop && reach > range.x;
+  float limit = stops ? min(reach + slack, range.y) : reach;  // what is around it may see a little farther
+  float all = stepsTo(media, limit) / float(STEPS);
+  uint room = stops ? min(uint(2.0 * all) + 4u, uint(params.blocks.y)) : 0u;
+  if (params.blocks.z != 0) {
+    if (room != 0u) atomicAdd(counters.groups, room);
+    return;
   }
-  alike = alike && reach.y - reach.x <= similarDepth(media);
 
-  float limit = 0.5 * (reach.x + reach.y);
-  media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, limit), params.march.x);
-  float depth = media.rangeOfAll.x;
-  vec3 radiance = vec3(0.0);
-  vec3 throughput = vec3(1.0);
-  while (alike && depth < limit && work < uint(RESOLVE_WORK_LIMIT) && maxComponent(throughput) >= params.march.y) {
-    Steps steps = nextSteps(media, ray.metresPerDepth, limit, depth, throughput);
-    if (steps.count > 0) radiance += scattered(steps, ray);
+  SmokeBlock block;
+  if (params.options.x != 0) {
+    block = SmokeBlock(0.0, 0.0, 0.0, pixels.farthest < range.y ? limit : SMOKE_ENDLESS, 1.0, 1.0, 1.0, range.x, range.x, slack,
+                       room != 0u ? atomicAdd(counters.groups, room) : 0u, 0u);
+    if (!smoky) block.reach = block.start = SMOKE_ENDLESS;
+  } else {
+    block = blocks[number];
   }
-  bool done = alike && work < uint(RESOLVE_WORK_LIMIT);
-  blocks[number] = RayState(radiance.r, radiance.g, radiance.b, done ? limit : NOT_MARCHED, throughput.r, throughput.g,
-                            throughput.b, 0u);
+  vec3 radiance = vec3(block.radianceR, block.radianceG, block.radianceB);
+  vec3 passed = vec3(block.passedR, block.passedG, block.passedB);
+  float depth = block.depth;
+  // A block may cover parts of cells of the light lists that are not the window's.
+  ray.lights = lightRun(lightCell(clamp(first + side / 2, view.window.xy, view.window.xy + view.window.zw - 1), view.window));
+
+  KnotWriter knots = KnotWriter(block.firstKnot, block.knots, room, 1.0, 0.0, depth);
+  if (room != 0u) knots.apart = max(all / max(0.8 * float(room) - 2.0, 1.0), 1.0);
+  bool marching = smoky && depth < limit;
+  while (marching) {
+    SmokeSeen before = SmokeSeen(radiance, passed);
+    Steps steps = nextSteps(media, ray.metresPerDepth, limit, depth, passed);
+    bool dark = maxComponent(passed) < params.march.y;
+    if (steps.count > 0) {
+      radiance += scattered(steps, ray);
+      if (room != 0u) writeSteps(knots, steps, before, SmokeSeen(radiance, passed), depth, dark, (limit - depth) / slack);
+    }
+    if (dark) depth = limit;  // nothing is seen of what is left
+    marching = depth < limit && work < uint(RESOLVE_WORK_LIMIT);
+  }
+  if (room != 0u && depth >= limit) writeKnot(knots, limit, SmokeSeen(radiance, passed));
+  if (smoky && depth < limit) atomicAdd(counters.unfinished, 1u);
+#ifdef COUNT_LOOKUPS
+  uvec4 counted = uvec4(lookups, marched, jumped);
+  blockLookups[number] = params.options.x != 0 ? counted : blockLookups[number] + counted;
+#endif
+  blocks[number] = SmokeBlock(radiance.r, radiance.g, radiance.b, block.reach, passed.r, passed.g, passed.b, block.start, depth,
+                              block.slack, block.firstKnot, knots.count);
 }

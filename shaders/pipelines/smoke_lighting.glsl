@@ -19,15 +19,19 @@ struct Steps {
   vec4 size;                     // in depth
   vec4 scattered[VOLUME_COUNT];  // sigma_t of each medium
   vec4 seen[3];                  // throughput of the ray before the step, times the length over which the step is seen, m
+  vec4 passed[3];                // throughput behind it
   vec3 emitted;                  // by fires in all of them, as the viewer sees it
 };
 
-void appendStep(inout Steps steps, float depth, float size, float scattered[VOLUME_COUNT], vec3 seen) {
+void appendStep(inout Steps steps, float depth, float size, float scattered[VOLUME_COUNT], vec3 seen, vec3 passed) {
   int k = steps.count;
   steps.depth[k] = depth;
   steps.size[k] = size;
   for (int v = 0; v < VOLUME_COUNT; ++v) steps.scattered[v][k] = scattered[v];
-  for (int c = 0; c < 3; ++c) steps.seen[c][k] = seen[c];
+  for (int c = 0; c < 3; ++c) {
+    steps.seen[c][k] = seen[c];
+    steps.passed[c][k] = passed[c];
+  }
   ++steps.count;
 }
 

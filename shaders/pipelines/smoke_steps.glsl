@@ -25,9 +25,9 @@ Steps nextSteps(MediaRay media, float metresPerDepth, float limit, inout float d
       float stepLength = (to - depth) * metresPerDepth;
       Extinction tau = sigmaT * stepLength;
       vec3 seen = throughput * seenLength(tau, stepLength);
-      appendStep(steps, middle, to - depth, scattered, seen);
-      steps.emitted += seen * emitted;
       throughput *= exp(-tau);
+      appendStep(steps, middle, to - depth, scattered, seen, throughput);
+      steps.emitted += seen * emitted;
       if (maxComponent(throughput) < params.march.y) limit = to;
     } else {
       to = emptyEnd(media, depth, to, limit);

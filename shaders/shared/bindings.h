@@ -17,6 +17,7 @@
 #define STORAGE_LIST_COUNTERS 5
 #define STORAGE_LIGHTS 6            // LightData[]
 #define STORAGE_AOVS 7              // AovPixel[]
+#define STORAGE_SMOKE_KNOTS 7       // uvec4[]: see SmokeBlock
 #define STORAGE_ROUTED_MET 7        // uvec2[]: keys of the last fragments that rays have met
 #define STORAGE_RECEIVER_DEPTHS 8   // of each cell of the light lists
 #define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
@@ -63,7 +64,7 @@
 #define TEXTURE_SHADOW_NODES 17  // of linked shadow lists, for comparisons
 #define TEXTURE_RECEIVER_DEPTHS 17  // of each cell, while its light list is built
 #define TEXTURE_BRICK_MAP 18
-#define TEXTURE_SMOKE_BLOCKS 19  // RayState of each block of pixels
+#define TEXTURE_SMOKE_BLOCKS 19  // SmokeBlock[]
 // Where layers of surfaces are lit one at a time, and no lists of them are read:
 #define TEXTURE_SURFACE_2 12
 #define TEXTURE_LAYER_LIGHT 13
@@ -75,7 +76,8 @@
 #define TEXTURE_ROUTED_COUNTS 13  // of fragments of a pixel
 #define TEXTURE_ROUTED_PAGE 14  // while they are drawn
 #define TEXTURE_OCCLUSION 20  // of ambient light, where surfaces are lit
-#define TEXTURE_GRIDS 21  // and the units after it
+#define TEXTURE_SMOKE_KNOTS 21   // of these
+#define TEXTURE_GRIDS 22  // and the units after it
 
 // Image units
 #define IMAGE_RESULT 0  // what a pass of images writes

@@ -10,6 +10,7 @@ struct ShadowFace {
   // x: number of its first texel, y: side, z: 1 for perspective; w: side of its texels of smoke, which stand behind the
   // others, 0: none; of interlaced maps, first column
   ivec4 texels;
+  vec4 smoke;  // what of the face smoke can be before, in texels: x, y from, z, w to
 };
 
 // The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots. Those of

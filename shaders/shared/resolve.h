@@ -27,10 +27,30 @@ struct ResolveParams {
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
   vec4 samples23;
   vec4 ambient;    // rgb: radiance from all around; w: radius of ambient occlusion, m
+  ivec4 blocks;    // of smoke, x: pixels a side; y: knots of each at most; z: 1 when they are only counted
+};
+
+// A square of pixels of the image, aligned to its side, whose smoke was marched once, along the ray through its middle. Where
+// surfaces stand in the smoke, knots tell how it was on the way: each has a depth, and as halves the radiance of the smoke up
+// to there and how much passes it; they are sorted by depth, and between two of them the smoke is as good as homogeneous.
+struct SmokeBlock {
+  float radianceR;  // of all that was marched
+  float radianceG;
+  float radianceB;
+  float reach;      // depth up to which it tells; SMOKE_ENDLESS: to the smoke's end
+  float passedR;    // of what is behind
+  float passedG;
+  float passedB;
+  float start;      // depth at which the smoke begins; SMOKE_ENDLESS: there is none
+  float depth;      // to which it was marched so far
+  float slack;      // depths that differ by less see about the same smoke
+  uint firstKnot;   // uvec4: depth, radiance.rg, radiance.b passed.r, passed.gb
+  uint knots;       // 0: it tells of all the smoke only
 };
 
 struct ResolveCounters {
-  uint groups;      // pixels that are split, counted past the capacity; of layers: rays that met a surface
+  uint groups;      // pixels that are split, counted past the capacity; of layers: rays that met a surface; of blocks of
+                    // smoke: knots
   uint unfinished;  // rays that need another dispatch
   uint boundHit;    // walks of light lists that were cut (never silently)
 };
@@ -39,6 +59,7 @@ SHARED_END
 
 #define NOTHING_SEEN 3e38
 #define MAX_SAMPLES 4
+#define SMOKE_ENDLESS 3e38
 
 // Loop iterations after which a ray stops and waits for the next dispatch.
 #define RESOLVE_WORK_LIMIT 20000

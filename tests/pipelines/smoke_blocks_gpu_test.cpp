@@ -108,25 +108,107 @@ TEST_F(SmokeBlocksGpu, SpareMostLookups) {
   EXPECT_LT(half.shadows, full.shadows / 2);
 }
 
-TEST_F(SmokeBlocksGpu, LeaveOtherPixelsAsTheyAre) {
-  // Behind panes, and where samples are walked one by one, a pixel is marched by itself.
+// A wall that leans through the smoke, and one far behind it; the camera stands in it where `within`.
+KnownScene wallThroughSmoke(bool within) {
+  KnownScene known;
+  scene::Scene& scene = known.scene;
+  tests::add(scene, tests::quad({-4, -4, -4}, {8, 0, 0}, {0, 8, 0}), tests::glowing({0.2f, 0.3f, 0.4f}));
+  tests::add(scene, tests::quad({-0.6f, -0.8f, 0.9f}, {1.2f, 0, -1.6f}, {0, 1.6f, -0.2f}),
+             tests::lambert({0.5f, 0.4f, 0.3f}));
+  known.media.push_back(tests::ball({0, 0, 0}, 1, 48, 4, {0.9, 0.9, 0.9}, 0.3));
+  scene.lights.push_back(tests::directionalLight({1, -2, -3}, {6, 5, 4}));
+  scene.lights.push_back(tests::pointLight({0.9, 0.5, 1.2}, {3, 4, 5}));
+  scene.cameras.push_back(tests::perspectiveCamera({0, 0, within ? 0.7 : 3}, {0, 0, 0}, 0.65));
+  return known;
+}
+
+TEST_F(SmokeBlocksGpu, TellOfSmokeUpToASurfaceInIt) {
+  for (const bool within : {false, true}) {
+    const KnownScene known = wallThroughSmoke(within);
+    KnownScene clear = known;
+    clear.media.clear();
+    const Frame full = draw(known, false), half = draw(known, true);
+    const double error = image::compare(half.radiance, full.radiance).relativeRmse;
+    const double ofNoSmoke = image::compare(draw(clear, false).radiance, full.radiance).relativeRmse;
+    fmt::print("{}: relative RMSE {:.5f}, without smoke {:.3f}\n", within ? "within" : "before", error,
+               ofNoSmoke);
+    EXPECT_LT(error, 0.01);
+    EXPECT_GT(ofNoSmoke, 0.2);
+  }
+}
+
+TEST_F(SmokeBlocksGpu, TellOfSmokeBetweenPanesAndToSamples) {
   const KnownScene known = tests::smokeAndGlass();
   const Frame full = draw(known, false, 4), half = draw(known, true, 4);
   const image::Image& fragments = full.aovs.at(Aov::Fragments);
-  long behindPanes = 0, wrong = 0, changed = 0;
+  double worstBehindPanes = 0;
+  long behindPanes = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const bool same =
-          std::equal(full.radiance.pixel(x, y), full.radiance.pixel(x, y) + 3, half.radiance.pixel(x, y));
-      const bool pane = fragments.pixel(x, y)[0] > 0;
-      behindPanes += pane;
-      wrong += pane && !same;
-      changed += !same;
+      if (fragments.pixel(x, y)[0] == 0) continue;
+      ++behindPanes;
+      for (int channel = 0; channel < 3; ++channel)
+        worstBehindPanes = std::max<double>(worstBehindPanes, std::abs(full.radiance.pixel(x, y)[channel] -
+                                                                       half.radiance.pixel(x, y)[channel]));
     }
+  fmt::print("behind {} panes: off by {:.4f} at most\n", behindPanes, worstBehindPanes);
   EXPECT_GT(behindPanes, 100);
-  EXPECT_EQ(wrong, 0);
-  EXPECT_GT(changed, 100);
+  EXPECT_GT(worstBehindPanes, 0);  // they are interpolated, too
   EXPECT_LT(image::compare(half.radiance, full.radiance).relativeRmse, 0.01);
+}
+
+TEST_F(SmokeBlocksGpu, GoOnWhereADispatchEnds) {
+  const KnownScene known = wallThroughSmoke(false);
+  Quality quality;
+  quality.samples = 1;
+  quality.shadowResolution = 64;
+  LinkedListsPipeline pipeline(device(), known.scene, known.media);
+  const auto errorWithSteps = [&](double voxels) {
+    quality.stepVoxels = voxels;
+    quality.halfResolutionSmoke = false;
+    const image::Image full = pipeline.render(known.scene.cameras[0], 32, 24, quality).radiance;
+    quality.halfResolutionSmoke = true;
+    const image::Image half = pipeline.render(known.scene.cameras[0], 32, 24, quality).radiance;
+    return image::compare(half, full).relativeRmse;
+  };
+  const double inOneDispatch = errorWithSteps(0.5);
+  EXPECT_LT(errorWithSteps(0.02),
+            1.1 * inOneDispatch);  // some 2,400 steps of the ball, each of them lit twice
+  EXPECT_GT(inOneDispatch, 0);
+}
+
+TEST_F(SmokeBlocksGpu, OfFourPixelsASideAreCloseWhereVoxelsAreWide) {
+  KnownScene known = wallThroughSmoke(false);
+  known.media[0] = tests::ball({0, 0, 0}, 1, 12, 4, {0.9, 0.9, 0.9}, 0.3);
+  Quality quality;
+  quality.samples = 1;
+  quality.shadowResolution = 256;
+  LinkedListsPipeline pipeline(device(), known.scene, known.media);
+  const auto drawn = [&] {
+    return pipeline.render(known.scene.cameras[0], width, height, quality, {.countLookups = true});
+  };
+  const Frame full = drawn();
+  quality.smokeRaySpacing = 1;
+  const Frame apart = drawn();
+  const double error = image::compare(apart.radiance, full.radiance).relativeRmse;
+  fmt::print("relative RMSE {:.5f}\n", error);
+  EXPECT_LT(apart.statistics.lookups.steps, full.statistics.lookups.steps / 8);
+  EXPECT_LT(error, 0.02);
+}
+
+TEST_F(SmokeBlocksGpu, OfTilesAndWindowsShowTheSame) {
+  const KnownScene known = wallThroughSmoke(false);
+  Quality quality;
+  quality.samples = 1;
+  quality.halfResolutionSmoke = true;
+  LinkedListsPipeline pipeline(device(), known.scene, known.media);
+  const auto drawn = [&](const FrameOptions& options) {
+    return pipeline.render(known.scene.cameras[0], 61, 45, quality, options).radiance;
+  };
+  const image::Image whole = drawn({});
+  // Blocks of another part are not asked at its border.
+  EXPECT_LT(image::compare(drawn({.tilePixels = 1000}), whole).relativeRmse, 0.005);
+  EXPECT_LT(image::compare(drawn({.windowPixels = 700}), whole).relativeRmse, 0.005);
 }
 
 TEST_F(SmokeBlocksGpu, ChangeNothingWithoutSmoke) {
