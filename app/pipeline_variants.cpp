@@ -48,6 +48,8 @@ const std::vector<Entry>& entries() {
        "Chapman, Deferred Rendering", "Cannot show more than the nearest translucent surface."},
       {"stencil-routed", "stencil-routed", asItIs, "Ferko 2012, section 5",
        "Cannot hold more layers in a pass than the driver has samples: more layers are more passes."},
+      {"stencil-routed, 1 sample", "stencil-routed", [](DeferredOptions& options) { options.samples = 1; },
+       "Ferko 2012, section 5", "Cannot hold more than one layer in a pass."},
   };
   return all;
 }

@@ -56,8 +56,8 @@ void startStencil(gl::Device& device, const gl::Texture& stencil, int samples, i
 }
 
 // Draws what comes into the samples that take it; all samples of a pixel count it.
-gl::DrawState routing(const gl::Program& program, const gl::Framebuffer& target, glm::ivec4 viewport,
-                      bool multisample = false) {
+gl::DrawState routingState(const gl::Program& program, const gl::Framebuffer& target, glm::ivec4 viewport,
+                           bool covering) {
   return {.program = &program,
           .target = &target,
           .viewport = viewport,
@@ -65,30 +65,42 @@ gl::DrawState routing(const gl::Program& program, const gl::Framebuffer& target,
                                      .reference = taken,
                                      .passed = gl::StencilChange::Decrement,
                                      .failed = gl::StencilChange::Decrement},
-          .multisample = multisample};
+          .multisample = covering};
 }
 
-// Samples of a pixel that a fragment at its centre can be routed to: one where the driver looks at the
-// stencil value of one sample and writes to all (Mesa's llvmpipe), or still asks which samples a triangle
-// covers.
-int routableSamples(gl::Device& device) {
-  const int samples = device.limits().samples;
-  if (samples <= 1) return 1;
+// A program of triangles, or of rectangles about them.
+const gl::Program& triangleProgram(gl::Device& device, std::vector<std::string> stages,
+                                   const std::string& coveringStage, gl::ShaderDefines defines,
+                                   bool covering) {
+  if (covering) {
+    stages.push_back(coveringStage);
+    defines.emplace_back("COVERING", "1");
+  }
+  return device.program(stages, defines);
+}
+
+// Whether each sample of a pixel takes its own of as many fragments at the centre.
+bool isRouted(gl::Device& device, int samples, bool covering) {
   const gl::Texture image(device, "routing probe", {.format = gl::Format::R32UI, .samples = samples});
   const gl::Texture stencil = stencilFor(device, {1, 1}, samples);
   const gl::Framebuffer target(std::vector<const gl::Texture*>{&image}, &stencil);
   target.clearColour(0, glm::uvec4(0));
   startStencil(device, stencil, samples, taken);
-  gl::setDrawState(routing(device.program({"pipelines/routing_probe.vert", "pipelines/routing_probe.frag"}),
-                           target, {0, 0, 1, 1}));
-  gl::drawGenerated(device, 3, 1);
+  gl::Buffer view(device, "camera view", sizeof(shared::ViewParams));
+  view.writeValue(shared::ViewParams{.size = {1, 1, 0, 0}});
+  view.bindUniform(UNIFORM_VIEW);
+  const gl::Program& program =
+      triangleProgram(device, {"pipelines/routing_probe.vert", "pipelines/routing_probe.frag"},
+                      "scene/covering_only.geom", {}, covering);
+  gl::setDrawState(routingState(program, target, {0, 0, 1, 1}, covering));
+  gl::drawGenerated(device, 3 * static_cast<size_t>(samples), 1);
   gl::Buffer counters(device, "walk counters", sizeof(shared::ResolveCounters));
   counters.clear();
   counters.bindStorage(STORAGE_COUNTERS);
   image.bind(TEXTURE_ROUTED_KEYS);
   gl::dispatch(device.program({"pipelines/routing_probe.comp"}, samplesDefine(samples)), {1, 1, 1});
   gl::storageBarrier();
-  return counters.readValue<shared::ResolveCounters>().groups == 1 ? samples : 1;
+  return counters.readValue<shared::ResolveCounters>().groups == static_cast<uint32_t>(samples);
 }
 
 // Translucent fragments of one band of the image.
@@ -100,11 +112,11 @@ struct Samples {
 
 class Router {
  public:
-  Router(LayeredFrame& frame, const SurfaceLayer& opaque, int samples, bool multisample)
+  Router(LayeredFrame& frame, const SurfaceLayer& opaque, const Routing& routing)
       : frame_(frame),
         opaque_(opaque),
-        samples_(samples),
-        multisample_(multisample),
+        samples_(routing.samples),
+        covering_(routing.covering && routing.samples > 1),
         bandView_(frame.device(), "camera view", sizeof(shared::ViewParams)),
         passBlock_(frame.device(), "layer pass", sizeof(shared::ResolveParams)) {
     count();
@@ -129,6 +141,11 @@ class Router {
     int fragments = 0;  // of its fullest pixel
   };
 
+  const gl::Program& surfaces(const std::string& fragmentStage, const gl::ShaderDefines& defines) {
+    return triangleProgram(frame_.device(), {"scene/surface.vert", fragmentStage}, "scene/covering.geom",
+                           defines, covering_);
+  }
+
   // How many fragments each pixel has, and the most in each row.
   void count() {
     const Profiler::Scope time(frame_.device().profiler(), "fragment count");
@@ -140,8 +157,7 @@ class Router {
     useView({0, 0, view.width, view.height});
     opaque_.depth.bind(TEXTURE_OPAQUE_DEPTH);
     gl::setDrawState(
-        {.program = &frame_.device().program({"scene/surface.vert", "pipelines/fragment_count.frag"},
-                                             frame_.scene().geometry().defines()),
+        {.program = &surfaces("pipelines/fragment_count.frag", frame_.scene().geometry().defines()),
          .target = &target,
          .viewport = {0, 0, view.width, view.height},
          .blend = gl::Blend::Add});
@@ -224,9 +240,9 @@ class Router {
       defines.emplace_back("PAGED", "1");
       pageEnd->bind(TEXTURE_ROUTED_PAGE);
     }
-    gl::setDrawState(routing(frame_.device().program({"scene/surface.vert", "pipelines/layer.frag"}, defines),
-                             target, {-band.tile.x, -band.tile.y, frame_.view().width, frame_.view().height},
-                             multisample_));
+    gl::setDrawState(routingState(surfaces("pipelines/layer.frag", defines), target,
+                                  {-band.tile.x, -band.tile.y, frame_.view().width, frame_.view().height},
+                                  covering_));
     geometry.draw(Layer::Translucent, true);
     ++frame_.statistics.geometryPasses;
   }
@@ -272,7 +288,7 @@ class Router {
   LayeredFrame& frame_;
   const SurfaceLayer& opaque_;
   const int samples_;
-  const bool multisample_;
+  const bool covering_;
   gl::Buffer bandView_;
   gl::Buffer passBlock_;
   gl::Texture counts_;
@@ -281,15 +297,18 @@ class Router {
 
 }  // namespace
 
+Routing routingOf(gl::Device& device) {
+  const int samples = device.limits().samples;
+  if (samples <= 1) return {};
+  if (isRouted(device, samples, false)) return {samples, false};
+  if (isRouted(device, samples, true)) return {samples, true};
+  return {};
+}
+
 StencilRoutedPipeline::StencilRoutedPipeline(gl::Device& device, const scene::Scene& scene,
                                              std::span<const volumes::Medium> media,
                                              const volumes::GridOptions& gridOptions)
-    : Pipeline(device, scene, media, gridOptions), mostSamples_(routableSamples(device)) {}
-
-void StencilRoutedPipeline::coverWholePixels() {
-  mostSamples_ = std::max(1, scene_.device().limits().samples);
-  multisample_ = true;
-}
+    : Pipeline(device, scene, media, gridOptions), routing_(routingOf(device)) {}
 
 Frame StencilRoutedPipeline::render(const scene::Camera& camera, int width, int height,
                                     const Quality& quality, const FrameOptions& options) {
@@ -297,9 +316,10 @@ Frame StencilRoutedPipeline::render(const scene::Camera& camera, int width, int 
   const SurfaceLayer opaque = frame.layer("opaque layer");
   frame.draw(opaque, {});
   Walk walk = frame.startWalk();
-  const int wanted = quality.deferred.samples;
-  const int samples = wanted > 0 ? std::min(wanted, mostSamples_) : mostSamples_;
-  if (scene_.geometry().has(Layer::Translucent)) Router(frame, opaque, samples, multisample_).walk(walk);
+  Routing routing = routing_;
+  if (const int wanted = quality.deferred.samples; wanted > 0)
+    routing.samples = std::min(wanted, routing.samples);
+  if (scene_.geometry().has(Layer::Translucent)) Router(frame, opaque, routing).walk(walk);
   frame.walkTo(opaque, frame.light(opaque), true, walk);
   options.onTile();
   return frame.finish(walk);

@@ -9,14 +9,25 @@
 // number of lights is met, by the light lists of a pixel's cell.
 //
 // Fragments are made at the centres of pixels and tested against each sample's stencil value, as OpenGL has
-// it where multisampling is off. Some drivers do not (Mesa's llvmpipe): they get one sample and a pass for
-// each fragment.
+// it where multisampling is off. Some drivers do not then test it for each sample (Mesa's llvmpipe): there it
+// is on, and triangles are drawn as rectangles of whole pixels, of which a fragment is kept where the
+// pixel's centre is in the triangle (shaders/scene/covering.glsl). Drivers that route neither way get one
+// sample and a pass for each fragment.
 #pragma once
 
 #include "pipelines/pipeline_gpu.h"
 #include "pipelines/scene_gpu.h"
 
 namespace sfumato::pipelines {
+
+// How fragments come into samples of their own.
+struct Routing {
+  int samples = 1;        // of a pixel, that fragments can be routed to
+  bool covering = false;  // by rectangles of whole pixels
+};
+
+// Finds out what the driver does, by drawing into one pixel.
+Routing routingOf(gl::Device& device);
 
 class StencilRoutedPipeline : public Pipeline {
  public:
@@ -31,13 +42,8 @@ class StencilRoutedPipeline : public Pipeline {
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
 
-  // Only for tests, of scenes whose triangles all cover whole pixels: any driver routes those to its samples,
-  // with multisampling on.
-  void coverWholePixels();
-
  private:
-  int mostSamples_;
-  bool multisample_ = false;
+  Routing routing_;
 };
 
 }  // namespace sfumato::pipelines

@@ -6,6 +6,10 @@ layout(location = 0) out float one;
 
 void main() {
   vec4 base = baseColour();
-  if (base.a == 0.0 || fragmentDepth() >= texelFetch(opaqueDepth, ivec2(gl_FragCoord.xy), 0).r) discard;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+#ifdef COVERING
+  if (!isCovered(pixel)) discard;
+#endif
+  if (base.a == 0.0 || fragmentDepth() >= texelFetch(opaqueDepth, pixel, 0).r) discard;
   one = 1.0;
 }

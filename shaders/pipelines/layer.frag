@@ -2,7 +2,8 @@
 // INTERLACE where they take some pixels only, IN_FRONT where what is behind the opaque surfaces is left out, NUMBERED where
 // the number of the fragment is kept, PEELED where what is not behind such a layer is left out, TABLE_STORAGE for targets
 // of 8 and 10 bits. ROUTED where all fragments are kept, with what orders them, in the samples of a part of the image, and
-// PAGED where those of earlier pages are left out (pipelines/stencil_routed_gpu.h).
+// PAGED where those of earlier pages are left out (pipelines/stencil_routed_gpu.h); COVERING where triangles came as
+// rectangles (scene/covering.geom).
 #include "shaders/scene/surface.glsl"
 #include "shaders/shared/layers.h"
 #ifdef INTERLACE
@@ -39,6 +40,9 @@ layout(location = 4) out uint id;
 #endif
 
 bool isWanted(ivec2 pixel, float at) {
+#ifdef COVERING
+  if (!isCovered(pixel)) return false;
+#endif
 #ifdef INTERLACE
   if (!maybeTranslucent(pixel)) return false;
 #endif

@@ -1,4 +1,4 @@
-// Counts the samples of a pixel in which a fragment arrived.
+// Counts the samples of a pixel in which their own fragment arrived: the first in the first, and so on.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/resolve.h"
 
@@ -10,6 +10,8 @@ layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
 
 void main() {
   uint count = 0u;
-  for (int i = 0; i < ROUTED_SAMPLES; ++i) count += texelFetch(arrived, ivec2(0), i).r;
+  for (int i = 0; i < ROUTED_SAMPLES; ++i) {
+    if (texelFetch(arrived, ivec2(0), i).r == uint(i + 1)) ++count;
+  }
   counters.groups = count;
 }

@@ -13,6 +13,9 @@ layout(std430, binding = STORAGE_MATERIALS) readonly buffer Materials {
 layout(binding = TEXTURE_BASE_COLOUR) uniform sampler2D baseColourTexture;
 layout(binding = TEXTURE_TRANSMISSION) uniform sampler2D transmissionTexture;
 
+#ifdef COVERING
+#include "shaders/scene/covered_surface.glsl"
+#else
 in vec3 vPositionView;
 in vec3 vNormalWorld;
 in vec4 vTangentWorld;
@@ -20,6 +23,7 @@ in vec2 vUv0;
 in vec2 vUv1;
 in vec4 vColour;
 flat in uint vDraw;
+#endif
 
 int materialNumber() {
   return draws[vDraw].indices.x;
