@@ -179,7 +179,7 @@ void addQuality(CLI::App& command, RenderOptions& options) {
       ->type_name("VOXELS")
       ->check(between(0.01, 100.0));
   add("--smoke-spacing", options.smokeSpacing,
-      "March once for 2 x 2 or 4 x 4 pixels where rays stay so close: 0 (never) to 100, else by --quality")
+      "March once for up to 4 x 4 pixels if rays stay so close: 0 to 100")
       ->type_name("VOXELS")
       ->check(between(0.0, 100.0));
   command

@@ -231,55 +231,88 @@ class Walk {
   gl::Buffer counters_;
 };
 
-// Smoke that was marched for blocks of the window's pixels, where rays may be so far apart.
-struct SmokeBlocks {
-  gl::Buffer blocks;
-  gl::Buffer knots;
-  gl::BufferTexture blockTexture;
-  gl::BufferTexture knotTexture;
+// Smoke that was marched for blocks of the window's pixels (SmokeBlock), where rays may be so far apart.
+class SmokeBlocks {
+ public:
+  SmokeBlocks() = default;
+
+  SmokeBlocks(gl::Device& device, const ResolveInputs& inputs, const gl::ShaderDefines& defines,
+              FrameStatistics& statistics) {
+    const Profiler::Scope time(device.profiler(), "smoke");
+    const int side = inputs.smokeBlockSide;
+    const size_t count = blocksAlong(inputs.window.x, inputs.window.width, side) *
+                         blocksAlong(inputs.window.y, inputs.window.height, side);
+    shared::ResolveParams params = resolveParams(inputs);
+    params.blocks = {side, 0, 0, static_cast<int>(count)};
+    params.options.w = static_cast<int>(count);
+    march(device, inputs, device.program({"pipelines/smoke_blocks.comp"}, defines), params, statistics);
+
+    const gl::Buffer parents(device, "smoke parents", count * sizeof(uint32_t));
+    parents.bindStorage(STORAGE_SMOKE_PARENTS);
+    bind();
+    const size_t refined = Walk(device, inputs, blocks_)
+                               .dispatch(device.program({"pipelines/smoke_refine.comp"}, defines), params)
+                               .groups;
+    if (refined == 0) return;
+    params.options.w = static_cast<int>(refined) * side * side;
+    parents.bindStorage(STORAGE_SMOKE_PARENTS);
+    march(device, inputs,
+          device.program({"pipelines/smoke_blocks.comp"}, gl::joined(defines, {{"REFINED", "1"}})), params,
+          statistics);
+  }
 
   void bind() const {
-    blockTexture.bind(TEXTURE_SMOKE_BLOCKS);
-    knotTexture.bind(TEXTURE_SMOKE_KNOTS);
+    blockTexture_.bind(TEXTURE_SMOKE_BLOCKS);
+    knotTexture_.bind(TEXTURE_SMOKE_KNOTS);
   }
+
+ private:
+  static constexpr size_t knotBytes = sizeof(glm::uvec4);
+
+  static size_t blocksAlong(int first, int pixels, int side) {
+    return static_cast<size_t>((first + pixels + side - 1) / side - first / side);
+  }
+
+  static gl::Buffer grown(gl::Device& device, const char* label, const gl::Buffer& buffer, size_t bytes) {
+    gl::Buffer result(device, label, buffer.bytes() + bytes);
+    if (buffer.bytes() > 0) result.copyFrom(buffer, buffer.bytes());
+    return result;
+  }
+
+  // Marches `params.options.w` more blocks.
+  void march(gl::Device& device, const ResolveInputs& inputs, const gl::Program& program,
+             shared::ResolveParams params, FrameStatistics& statistics) {
+    const auto count = static_cast<size_t>(params.options.w);
+    const size_t most = std::min(static_cast<size_t>(device.limits().textureBufferTexels),
+                                 static_cast<size_t>(device.limits().storageBlockBytes) / knotBytes);
+    params.blocks.y = static_cast<int>((most - knots_) / count);
+    params.blocks.z = -1;
+    blocks_ = grown(device, "smoke blocks", blocks_, count * sizeof(shared::SmokeBlock));
+    Walk walk(device, inputs, blocks_);
+    const size_t knots = walk.dispatch(program, params).groups;
+    params.blocks.z = static_cast<int>(knots_);
+    knotBuffer_ = grown(device, "smoke knots", knotBuffer_, knots * knotBytes);
+    knots_ += knots;
+    const gl::Buffer lookups(device, "lookups", inputs.countLookups ? count * sizeof(glm::uvec4) : 0);
+    for (shared::ResolveCounters counted{.unfinished = 1}; counted.unfinished > 0; params.options.x = 0) {
+      knotBuffer_.bindStorage(STORAGE_SMOKE_KNOTS);
+      lookups.bindStorage(STORAGE_LOOKUPS);
+      counted = walk.dispatch(program, params);
+      statistics.cutWalks += counted.boundHit;
+    }
+    if (inputs.countLookups)
+      for (const glm::uvec4& ofBlock : lookups.readValues<glm::uvec4>(count))
+        add(ofBlock, statistics.lookups);
+    blockTexture_ = gl::BufferTexture(device, blocks_, gl::BufferFormat::RGBA32F);
+    knotTexture_ = gl::BufferTexture(device, knotBuffer_, gl::BufferFormat::RGBA32UI);
+  }
+
+  gl::Buffer blocks_;
+  gl::Buffer knotBuffer_;
+  size_t knots_ = 0;  // in it
+  gl::BufferTexture blockTexture_;
+  gl::BufferTexture knotTexture_;
 };
-
-constexpr size_t knotBytes = sizeof(glm::uvec4);
-
-size_t blocksAlong(int first, int pixels, int side) {
-  return static_cast<size_t>((first + pixels + side - 1) / side - first / side);
-}
-
-SmokeBlocks marchBlocks(gl::Device& device, const ResolveInputs& inputs, const gl::ShaderDefines& defines,
-                        FrameStatistics& statistics) {
-  const Profiler::Scope time(device.profiler(), "smoke");
-  const int side = inputs.smokeBlockSide;
-  const size_t count = blocksAlong(inputs.window.x, inputs.window.width, side) *
-                       blocksAlong(inputs.window.y, inputs.window.height, side);
-  const gl::Program& program = device.program({"pipelines/smoke_blocks.comp"}, defines);
-  const size_t mostKnots = std::min(static_cast<size_t>(device.limits().textureBufferTexels),
-                                    static_cast<size_t>(device.limits().storageBlockBytes) / knotBytes);
-  shared::ResolveParams params = resolveParams(inputs);
-  params.options.w = static_cast<int>(count);
-  params.blocks = {side, static_cast<int>(mostKnots / count), 1, 0};
-  SmokeBlocks smoke;
-  smoke.blocks = gl::Buffer(device, "smoke blocks", count * sizeof(shared::SmokeBlock));
-  Walk walk(device, inputs, smoke.blocks);
-  gl::Buffer lookups(device, "lookups", inputs.countLookups ? count * sizeof(glm::uvec4) : 0);
-  smoke.knots = gl::Buffer(device, "smoke knots", walk.dispatch(program, params).groups * knotBytes);
-  params.blocks.z = 0;
-  for (shared::ResolveCounters counted{.unfinished = 1}; counted.unfinished > 0; params.options.x = 0) {
-    smoke.knots.bindStorage(STORAGE_SMOKE_KNOTS);
-    lookups.bindStorage(STORAGE_LOOKUPS);
-    counted = walk.dispatch(program, params);
-    statistics.cutWalks += counted.boundHit;
-  }
-  if (inputs.countLookups)
-    for (const glm::uvec4& ofBlock : lookups.readValues<glm::uvec4>(count)) add(ofBlock, statistics.lookups);
-  smoke.blockTexture = gl::BufferTexture(device, smoke.blocks, gl::BufferFormat::RGBA32F);
-  smoke.knotTexture = gl::BufferTexture(device, smoke.knots, gl::BufferFormat::RGBA32UI);
-  return smoke;
-}
 
 // Lights the window's pixels into the frame; false when their rays do not fit one buffer.
 bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
@@ -290,8 +323,7 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const WalkOptions options{samples, inputs.smokeBlockSide, inputs.countLookups, frame.deep.has_value()};
   SmokeBlocks smoke;
   if (options.takesBlocks())
-    smoke =
-        marchBlocks(device, inputs, marchDefines(inputs.scene, inputs.quality, options), frame.statistics);
+    smoke = SmokeBlocks(device, inputs, marchDefines(inputs.scene, inputs.quality, options), frame.statistics);
   const gl::Program& program =
       device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.scene, inputs.quality, options));
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));

@@ -96,7 +96,7 @@ void main() {
   float nearest = surfaces.count != 0u ? listDepth(surfaces.first) : rayEnd;
   bool smoky = media.rangeOfAll.x < min(smokeEnd, rayEnd);
   while (smoky) {
-    taps = blockTaps(position, min(rayEnd, smokeEnd), min(rayEnd, nearest) < smokeEnd);
+    taps = blockTaps(position, media, min(rayEnd, smokeEnd), min(rayEnd, nearest) < smokeEnd);
     if (!first) seenBefore = seenTo(taps, depth);
     smoky = false;
   }

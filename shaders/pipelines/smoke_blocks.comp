@@ -1,6 +1,6 @@
 // Marches the smoke once for each block of pixels, along the ray through its middle, as far as any of them sees. Where
 // surfaces stand in the smoke, knots are kept on the way. A block that has done much work goes on in the next dispatch.
-// SAMPLES is how many a pixel of the G-buffer has.
+// SAMPLES is how many a pixel of the G-buffer has. REFINED is defined for blocks of single pixels.
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/smoke_blocks.glsl"
 #include "shaders/pipelines/smoke_steps.glsl"
@@ -13,6 +13,11 @@ layout(std430, binding = STORAGE_RAYS) buffer Blocks {
 layout(std430, binding = STORAGE_SMOKE_KNOTS) writeonly buffer Knots {
   uvec4 smokeKnotsWritten[];
 };
+#ifdef REFINED
+layout(std430, binding = STORAGE_SMOKE_PARENTS) readonly buffer Parents {
+  uint parents[];
+};
+#endif
 layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
   uint pixelGroups[];
 };
@@ -23,16 +28,14 @@ layout(std430, binding = STORAGE_LOOKUPS) buffer BlockLookups {
 #endif
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 
-
 // Of the pixels of a block.
 struct Pixels {
   float farthest;  // opaque depth
   bool stop;       // surfaces stand in the smoke
 };
 
-Pixels pixelsOf(ivec2 first, float smokeEnd) {
+Pixels pixelsOf(ivec2 first, int side, float smokeEnd) {
   Pixels pixels = Pixels(0.0, false);
-  int side = params.blocks.x;
   for (int i = 0; i < side * side; ++i) {
     ivec2 pixel = first + ivec2(i % side, i / side);
     if (!hasList(view, pixel)) continue;
@@ -101,33 +104,41 @@ void main() {
   if (number >= uint(params.options.w)) return;
   int side = params.blocks.x;
   ivec4 ofWindow = blocksOfWindow();
+#ifdef REFINED
+  int pixel = int(number) % (side * side);
+  int parent = int(parents[int(number) / (side * side)]);
+  ivec2 first = side * (ofWindow.xy + ivec2(parent % ofWindow.z, parent / ofWindow.z)) + ivec2(pixel % side, pixel / side);
+  uint place = uint(params.blocks.w) + number;
+  side = 1;
+#else
   ivec2 first = side * (ofWindow.xy + ivec2(int(number) % ofWindow.z, int(number) / ofWindow.z));
+  uint place = number;
+#endif
   PixelRay ray = pixelRay(imagePlane(view, vec2(first) + 0.5 * float(side)), float(side));
   MediaRay media = mediaRay(ray.origin, ray.perDepth, view.depthRange.xy, params.march.x);
   vec2 range = media.rangeOfAll;
   bool smoky = range.x < range.y;
   Pixels pixels = Pixels(0.0, false);
-  if (smoky) pixels = pixelsOf(first, range.y);
+  if (smoky) pixels = pixelsOf(first, side, range.y);
 
-  float slack = 3e38;
-  for (int v = 0; v < MARCHED; ++v) slack = min(slack, float(STEPS) * media.stride[v]);
+  float slack = depthSlack(media);
   float reach = min(pixels.farthest, range.y);
   bool stops = smoky && pixels.stop && reach > range.x;
   float limit = stops ? min(reach + slack, range.y) : reach;  // what is around it may see a little farther
   float all = stepsTo(media, limit) / float(STEPS);
   uint room = stops ? min(uint(2.0 * all) + 4u, uint(params.blocks.y)) : 0u;
-  if (params.blocks.z != 0) {
+  if (params.blocks.z < 0) {
     if (room != 0u) atomicAdd(counters.groups, room);
     return;
   }
 
   SmokeBlock block;
   if (params.options.x != 0) {
-    block = SmokeBlock(0.0, 0.0, 0.0, pixels.farthest < range.y ? limit : SMOKE_ENDLESS, 1.0, 1.0, 1.0, range.x, range.x, slack,
-                       room != 0u ? atomicAdd(counters.groups, room) : 0u, 0u);
+    block = SmokeBlock(0.0, 0.0, 0.0, pixels.farthest < range.y ? limit : SMOKE_ENDLESS, 1.0, 1.0, 1.0, range.x, range.x, 0u,
+                       uint(params.blocks.z) + (room != 0u ? atomicAdd(counters.groups, room) : 0u), 0u);
     if (!smoky) block.reach = block.start = SMOKE_ENDLESS;
   } else {
-    block = blocks[number];
+    block = blocks[place];
   }
   vec3 radiance = vec3(block.radianceR, block.radianceG, block.radianceB);
   vec3 passed = vec3(block.passedR, block.passedG, block.passedB);
@@ -155,6 +166,6 @@ void main() {
   uvec4 counted = uvec4(lookups, marched, jumped);
   blockLookups[number] = params.options.x != 0 ? counted : blockLookups[number] + counted;
 #endif
-  blocks[number] = SmokeBlock(radiance.r, radiance.g, radiance.b, block.reach, passed.r, passed.g, passed.b, block.start, depth,
-                              block.slack, block.firstKnot, knots.count);
+  blocks[place] = SmokeBlock(radiance.r, radiance.g, radiance.b, block.reach, passed.r, passed.g, passed.b, block.start, depth,
+                              0u, block.firstKnot, knots.count);
 }

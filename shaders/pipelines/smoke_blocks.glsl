@@ -67,17 +67,27 @@ struct BlockTaps {
   bool stops;       // see blockTaps
 };
 
+// Depths along a ray that differ by less see about the same smoke.
+float depthSlack(MediaRay media) {
+  float slack = 3e38;
+  for (int v = 0; v < MARCHED; ++v) slack = min(slack, 4.0 * media.stride[v]);
+  return slack;
+}
+
 // For a ray through a position of the image that goes to `end`; `stops`: surfaces stand in the smoke before that, so that it
 // must be known up to them. Blocks that see less far do not count, or what is behind an edge would show beside it (joint
-// bilateral upsampling: Kopf, Cohen, Lischinski and Uyttendaele 2007); that of the pixel itself always does.
-BlockTaps blockTaps(vec2 position, float end, bool stops) {
+// bilateral upsampling: Kopf, Cohen, Lischinski and Uyttendaele 2007); that of the pixel itself always does, and alone if it
+// was refined.
+BlockTaps blockTaps(vec2 position, MediaRay media, float end, bool stops) {
   ivec4 blocks = blocksOfWindow();
   vec2 place = position / float(params.blocks.x) - vec2(blocks.xy);
   ivec2 own = ivec2(place);
   ivec2 low = ivec2(floor(place - 0.5));
   vec2 between = place - 0.5 - vec2(low);
   BlockTaps taps = BlockTaps(ivec4(0), vec4(0.0), SmokeSeen(vec3(0.0), vec3(0.0)), stops);
+  float slack = depthSlack(media);
   float weights = 0.0;
+  uint refined = 0u;
   for (int i = 0; i < 4; ++i) {
     ivec2 corner = ivec2(i & 1, i >> 1);
     ivec2 at = clamp(low + corner, ivec2(0), blocks.zw - 1);
@@ -85,7 +95,7 @@ BlockTaps blockTaps(vec2 position, float end, bool stops) {
     vec4 radianceReach = texelFetch(smokeBlocks, 3 * number);
     vec4 passedStart = texelFetch(smokeBlocks, 3 * number + 1);
     vec4 rest = texelFetch(smokeBlocks, 3 * number + 2);
-    bool tells = radianceReach.w >= end - rest.y &&
+    bool tells = radianceReach.w >= end - slack &&
                  (!stops || floatBitsToInt(rest.w) > 0 || passedStart.w == SMOKE_ENDLESS);
     vec2 part = mix(1.0 - between, between, vec2(corner));
     float weight = tells || at == own ? part.x * part.y : 0.0;
@@ -94,17 +104,26 @@ BlockTaps blockTaps(vec2 position, float end, bool stops) {
     taps.whole.radiance += weight * radianceReach.rgb;
     taps.whole.passed += weight * passedStart.rgb;
     weights += weight;
+    if (at == own) refined = floatBitsToUint(rest.y);
   }
   taps.weight /= weights;
   taps.whole.radiance /= weights;
   taps.whole.passed /= weights;
+  while (refined != 0u) {  // a loop, because some drivers skip nothing else
+    ivec2 inBlock = ivec2((place - vec2(own)) * float(params.blocks.x));
+    int number = int(refined) + inBlock.y * params.blocks.x + inBlock.x;
+    taps.block = ivec4(number);
+    taps.weight = vec4(1.0, 0.0, 0.0, 0.0);
+    taps.whole = SmokeSeen(texelFetch(smokeBlocks, 3 * number).rgb, texelFetch(smokeBlocks, 3 * number + 1).rgb);
+    refined = 0u;
+  }
   return taps;
 }
 
 SmokeSeen seenTo(BlockTaps taps, float depth) {
   SmokeSeen sum = taps.whole;
   bool within = taps.stops;
-  while (within) {  // a loop, because some drivers skip nothing else
+  while (within) {  // likewise
     sum = SmokeSeen(vec3(0.0), vec3(0.0));
     for (int i = 0; i < 4; ++i) {
       SmokeSeen seen = seenByBlock(taps.block[i], depth);

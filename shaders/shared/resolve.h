@@ -27,11 +27,13 @@ struct ResolveParams {
   vec4 samples01;  // places of the samples in a pixel, [0, 1]^2
   vec4 samples23;
   vec4 ambient;    // rgb: radiance from all around; w: radius of ambient occlusion, m
-  ivec4 blocks;    // of smoke, x: pixels a side; y: knots of each at most; z: 1 when they are only counted
+  ivec4 blocks;    // of smoke, x: pixels a side; y: knots of each at most; z: knots of others before theirs, -1: they
+                   // are only counted; w: blocks of that side, before those of single pixels
   ivec4 area;      // x, y, width, height: of layers: pixels that have the rays
 };
 
-// A square of pixels of the image, aligned to its side, whose smoke was marched once, along the ray through its middle. Where
+// A square of pixels of the image, aligned to its side, whose smoke was marched once, along the ray through its middle; behind
+// those, of each pixel of the squares that differ much from what is around them. Where
 // surfaces stand in the smoke, knots tell how it was on the way: each has a depth, and as halves the radiance of the smoke up
 // to there and how much passes it; they are sorted by depth, and between two of them the smoke is as good as homogeneous.
 struct SmokeBlock {
@@ -44,14 +46,14 @@ struct SmokeBlock {
   float passedB;
   float start;      // depth at which the smoke begins; SMOKE_ENDLESS: there is none
   float depth;      // to which it was marched so far
-  float slack;      // depths that differ by less see about the same smoke
+  uint refined;     // number of the first of the blocks of its single pixels, row by row, which tell more; 0: none
   uint firstKnot;   // uvec4: depth, radiance.rg, radiance.b passed.r, passed.gb
   uint knots;       // 0: it tells of all the smoke only
 };
 
 struct ResolveCounters {
   uint groups;      // pixels that are split, counted past the capacity; of layers: rays that met a surface; of blocks of
-                    // smoke: knots
+                    // smoke: knots, or those that are refined
   uint unfinished;  // rays that need another dispatch
   uint boundHit;    // walks of light lists that were cut (never silently)
 };

@@ -138,7 +138,7 @@ TEST_F(OddInput, OfAHundredThousandNodesIsDrawnInTime) {
   EXPECT_EQ(drawn(chain).values, drawn(glowingScene()).values);
   GltfBuilder lamps = glowingScene();
   for (int i = 0; i < nodes; ++i) lamps.add("nodes", lamps.json["nodes"][lamp]);
-  expectRefused("lamps", lamps, 5, "MiB");
+  expectRefused("lamps", lamps, 5, "--shadow-memory");
 }
 
 TEST_F(OddInput, WithSpacesAndOtherLettersInNames) {

@@ -125,7 +125,7 @@ const std::map<std::string, Layout>& cppLayouts() {
        {sizeof(shared::SmokeBlock),
         {AT(SmokeBlock, radianceR), AT(SmokeBlock, radianceG), AT(SmokeBlock, radianceB),
          AT(SmokeBlock, reach), AT(SmokeBlock, passedR), AT(SmokeBlock, passedG), AT(SmokeBlock, passedB),
-         AT(SmokeBlock, start), AT(SmokeBlock, depth), AT(SmokeBlock, slack), AT(SmokeBlock, firstKnot),
+         AT(SmokeBlock, start), AT(SmokeBlock, depth), AT(SmokeBlock, refined), AT(SmokeBlock, firstKnot),
          AT(SmokeBlock, knots)}}},
       {"ResolveCounters",
        {sizeof(shared::ResolveCounters),
