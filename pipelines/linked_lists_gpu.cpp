@@ -323,7 +323,8 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const WalkOptions options{samples, inputs.smokeBlockSide, inputs.countLookups, frame.deep.has_value()};
   SmokeBlocks smoke;
   if (options.takesBlocks())
-    smoke = SmokeBlocks(device, inputs, marchDefines(inputs.scene, inputs.quality, options), frame.statistics);
+    smoke =
+        SmokeBlocks(device, inputs, marchDefines(inputs.scene, inputs.quality, options), frame.statistics);
   const gl::Program& program =
       device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.scene, inputs.quality, options));
   gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));

@@ -51,7 +51,8 @@ Result context(const Context& context) {
 }
 
 bool isStage(const std::string& name) {
-  return name.ends_with(".vert") || name.ends_with(".frag") || name.ends_with(".comp");
+  return name.ends_with(".vert") || name.ends_with(".geom") || name.ends_with(".frag") ||
+         name.ends_with(".comp");
 }
 
 // The shaders of lists are left to the checks of the group `engine`, which run them.

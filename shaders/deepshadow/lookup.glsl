@@ -1,5 +1,5 @@
 // How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built. VOLUME_COUNT is
-// defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel.
+// defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel of surfaces.
 #include "shaders/deepshadow/faces.glsl"
 
 // As buffer textures, because all maps together may be larger than one storage block.
@@ -114,23 +114,14 @@ vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
   return exp(-tau);
 }
 
-// The same of the nearest one.
-vec3 nearestSmokeTransmittance(ShadowFace face, vec2 place, float depth) {
-#if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
-  ShadowTexel texel = shadowTexel(smokeTexelNumber(face, ivec2(floor(smokePlace(face, place)))));
-  return runTransmittance(texel, depth, vec3(0.0));
-#else
-  return vec3(1.0);
-#endif
-}
-
-// Of a point in smoke, in the view space of the face that sees it; `side`: see Taps.
+// Of a point in smoke, in the view space of the face that sees it; `side`, of texels of surfaces: see Taps. Those of smoke are
+// too wide for one to do.
 vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   float depth = -pFace.z;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(depth, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
 #ifdef NEAREST_SMOKE_SHADOWS
-  return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth) * nearestSmokeTransmittance(face, place, depth);
+  return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth) * smokeTransmittance(face, place, depth);
 #else
   Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
@@ -138,7 +129,7 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
     ivec2 offset = ivec2(i % side, i / side);
     sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
-  return sum * (side == 1 ? nearestSmokeTransmittance(face, place, depth) : smokeTransmittance(face, place, depth));
+  return sum * smokeTransmittance(face, place, depth);
 #endif
 }
 
