@@ -11,8 +11,9 @@ layout(std430, binding = STORAGE_SMOKE_PARENTS) writeonly buffer Parents {
   uint parents[];
 };
 
-const float ALIKE = 0.25;
-const float THIN = 0.02;  // takes so little that what it scatters may differ
+const float ALIKE = 0.1;      // of transmittance
+const float AS_BRIGHT = 0.5;  // of what is brighter
+const float THIN = 0.02;      // takes so little that what it scatters may differ
 
 // Of what smoke scatters, whatever there is of it.
 vec3 brightness(SmokeSeen seen) {
@@ -24,7 +25,7 @@ bool areAlike(SmokeSeen a, SmokeSeen b) {
   vec3 brightB = brightness(b);
   bool thin = all(greaterThan(min(a.passed, b.passed), vec3(1.0 - 2.0 * THIN)));
   return all(lessThan(abs(a.passed - b.passed), vec3(ALIKE))) &&
-         (thin || all(lessThanEqual(abs(brightA - brightB), ALIKE * max(brightA, brightB))));
+         (thin || all(lessThanEqual(abs(brightA - brightB), AS_BRIGHT * max(brightA, brightB))));
 }
 
 void main() {
