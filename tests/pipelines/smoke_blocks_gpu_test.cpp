@@ -102,7 +102,8 @@ TEST_F(SmokeBlocksGpu, LeaveNoHaloAtEdgesOfDepth) {
 }
 
 TEST_F(SmokeBlocksGpu, SpareMostLookups) {
-  const KnownScene known = barsInSmoke();
+  KnownScene known = barsInSmoke();
+  known.media[0] = tests::ball({0, 0, 0}, 1, 48, 1, {0.9, 0.9, 0.9}, 0);  // thin: nothing is refined but edges
   const Lookups full = draw(known, false).statistics.lookups, half = draw(known, true).statistics.lookups;
   EXPECT_LT(half.steps, full.steps / 2);
   EXPECT_LT(half.shadows, full.shadows / 2);
@@ -177,7 +178,7 @@ TEST_F(SmokeBlocksGpu, GoOnWhereADispatchEnds) {
 
 TEST_F(SmokeBlocksGpu, OfFourPixelsASideAreCloseWhereVoxelsAreWide) {
   KnownScene known = wallThroughSmoke(false);
-  known.media[0] = tests::ball({0, 0, 0}, 1, 12, 4, {0.9, 0.9, 0.9}, 0.3);
+  known.media[0] = tests::ball({0, 0, 0}, 1, 12, 0.5, {0.9, 0.9, 0.9}, 0.3);
   Quality quality;
   quality.samples = 1;
   quality.shadowResolution = 256;
@@ -190,7 +191,7 @@ TEST_F(SmokeBlocksGpu, OfFourPixelsASideAreCloseWhereVoxelsAreWide) {
   const Frame apart = drawn();
   const double error = image::compare(apart.radiance, full.radiance).relativeRmse;
   fmt::print("relative RMSE {:.5f}\n", error);
-  EXPECT_LT(apart.statistics.lookups.steps, full.statistics.lookups.steps / 2);  // edges take more
+  EXPECT_LT(apart.statistics.lookups.steps, full.statistics.lookups.steps / 3);  // edges take more
   EXPECT_LT(error, 0.02);
 }
 
