@@ -103,7 +103,8 @@ TEST_F(SmokeBlocksGpu, LeaveNoHaloAtEdgesOfDepth) {
 
 TEST_F(SmokeBlocksGpu, SpareMostLookups) {
   KnownScene known = barsInSmoke();
-  known.media[0] = tests::ball({0, 0, 0}, 1, 48, 1, {0.9, 0.9, 0.9}, 0);  // thin: nothing is refined but edges
+  known.media[0] =
+      tests::ball({0, 0, 0}, 1, 48, 1, {0.9, 0.9, 0.9}, 0);  // thin: nothing is refined but edges
   const Lookups full = draw(known, false).statistics.lookups, half = draw(known, true).statistics.lookups;
   EXPECT_LT(half.steps, full.steps / 2);
   EXPECT_LT(half.shadows, full.shadows / 2);
