@@ -79,7 +79,7 @@ Drawn drawOnGpu(const RenderOptions& options, const Shot& shot, Clock::time_poin
   RunTimes times;
   const auto pipeline = pipelines::makePipeline(options.pipeline, device, shot.scene, shot.media,
                                                 {.budgetBytes = shot.volumeMemory});
-  pipeline->prepare(shot.camera, options.width, options.height, shot.quality, frameOptions(options, shot));
+  pipeline->prepare(shot.camera, options.height, shot.quality, frameOptions(options, shot));
   times.startupPasses = device.profiler().times();
   times.startupSeconds = secondsSince(start);
   base::note("start-up: {:.2f} s", times.startupSeconds);

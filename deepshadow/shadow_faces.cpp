@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box.h"
+
 namespace sfumato::deepshadow {
 
 using glm::dmat4;
@@ -45,11 +47,7 @@ int faceSide(int resolution) {
 }
 
 int smokeSide(const FaceProjection& face, const dmat4& worldFromUnit, double width, double reach) {
-  const dmat4 faceFromUnit = glm::inverse(face.worldFromFace) * worldFromUnit;
-  double farthest = 0;
-  for (int corner = 0; corner < 8; ++corner)
-    farthest =
-        std::max(farthest, -(faceFromUnit * glm::dvec4(corner & 1, corner >> 1 & 1, corner >> 2, 1)).z);
+  const double farthest = base::farthestDepth(face.worldFromFace, worldFromUnit);
   const double extent = 2 * std::max(face.halfExtent.x, face.halfExtent.y);
   const double widest = face.orthographic ? extent : extent * std::min(farthest, reach);
   const double texels = std::clamp(std::ceil(widest / width), 1.0, double(face.side));
@@ -61,12 +59,10 @@ glm::dvec4 smokePart(const FaceProjection& face, std::span<const dmat4> boxes) {
   dvec2 low(infinity);
   dvec2 high(-infinity);
   for (const dmat4& worldFromUnit : boxes) {
-    const dmat4 faceFromUnit = glm::inverse(face.worldFromFace) * worldFromUnit;
     dvec2 boxLow(infinity);
     dvec2 boxHigh(-infinity);
     int before = 0;  // corners
-    for (int corner = 0; corner < 8; ++corner) {
-      const dvec3 p(faceFromUnit * glm::dvec4(corner & 1, corner >> 1 & 1, corner >> 2, 1));
+    for (const dvec3& p : base::boxCorners(glm::inverse(face.worldFromFace) * worldFromUnit)) {
       before += -p.z > 0;
       const dvec2 xy = face.orthographic ? dvec2(p) : dvec2(p) / std::max(-p.z, 1e-30);
       boxLow = glm::min(boxLow, xy);

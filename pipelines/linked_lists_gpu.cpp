@@ -32,8 +32,9 @@ int samplesOf(const SceneGpu& scene, const Quality& quality) {
   return std::clamp(quality.samples, 1, std::min(MAX_SAMPLES, scene.device().limits().samples));
 }
 
-int smokeBlockSideOf(const SceneGpu& scene, const shared::ViewParams& view, const Quality& quality) {
-  return quality.walkedSmokeNodes > 0 ? 1 : smokeBlockSide(scene.volumes().extents(), view, quality);
+int smokeBlockSideOf(const SceneGpu& scene, const scene::Camera& camera, int height, const Quality& quality) {
+  return quality.walkedSmokeNodes > 0 ? 1
+                                      : smokeBlockSide(scene.volumes().extents(), camera, height, quality);
 }
 
 // What a frame's rays are walked for.
@@ -488,9 +489,9 @@ class TilePainter {
 
 }  // namespace
 
-void LinkedListsPipeline::prepare(const scene::Camera& camera, int width, int height, const Quality& quality,
+void LinkedListsPipeline::prepare(const scene::Camera& camera, int height, const Quality& quality,
                                   const FrameOptions& options) {
-  const int side = smokeBlockSideOf(scene_, scene::cameraView(camera, width, height), quality);
+  const int side = smokeBlockSideOf(scene_, camera, height, quality);
   const WalkOptions walk{static_cast<size_t>(samplesOf(scene_, quality)), side, options.countLookups,
                          options.deep};
   scene_.device().program({"pipelines/resolve.comp"}, resolveDefines(scene_, quality, walk));
@@ -516,7 +517,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
                           view.params,
                           width,
                           height,
-                          smokeBlockSideOf(scene_, view.params, quality),
+                          smokeBlockSideOf(scene_, camera, height, quality),
                           options.countLookups,
                           deepLimits};
   TilePainter painter(scene_.device(), inputs, options.windowPixels, frame);

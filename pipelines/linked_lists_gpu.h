@@ -14,7 +14,7 @@ class LinkedListsPipeline : public Pipeline {
  public:
   using Pipeline::Pipeline;
 
-  void prepare(const scene::Camera& camera, int width, int height, const Quality& quality,
+  void prepare(const scene::Camera& camera, int height, const Quality& quality,
                const FrameOptions& options) override;
   // Draws one frame, tile by tile (pipelines/tiles.h): each pixel is the same bits whatever the device can
   // hold at a time, but where a ray through smoke stands for pixels of two tiles. Bytes: 12 a pixel on the

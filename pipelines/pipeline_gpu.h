@@ -24,8 +24,8 @@ class Pipeline {
   virtual ~Pipeline() = default;
   // Compiles what takes longest of what such frames are drawn with, as a part of the start-up; all else is
   // compiled when it is first used.
-  virtual void prepare(const scene::Camera& /*camera*/, int /*width*/, int /*height*/,
-                       const Quality& /*quality*/, const FrameOptions& /*options*/) {}
+  virtual void prepare(const scene::Camera& /*camera*/, int /*height*/, const Quality& /*quality*/,
+                       const FrameOptions& /*options*/) {}
   virtual Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                        const FrameOptions& options = {}) = 0;
   const SceneGpu& scene() const { return scene_; }

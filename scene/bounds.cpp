@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "base/box.h"
+
 namespace sfumato::scene {
 
 using glm::dvec3;
@@ -23,8 +25,7 @@ Bounds boundsOf(std::span<const dvec3> points) {
 Bounds boundsOf(std::span<const volumes::Medium> media) {
   std::vector<dvec3> corners;
   for (const volumes::Medium& medium : media)
-    for (int i = 0; i < 8; ++i)
-      corners.emplace_back(volumes::worldFromUnit(medium) * glm::dvec4(corner({dvec3(0), dvec3(1)}, i), 1));
+    for (const dvec3& p : base::boxCorners(volumes::worldFromUnit(medium))) corners.push_back(p);
   return boundsOf(corners);
 }
 

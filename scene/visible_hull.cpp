@@ -1,9 +1,9 @@
 #include "scene/visible_hull.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "base/box.h"
 #include "scene/clipping.h"
 
 namespace sfumato::scene {
@@ -49,13 +49,6 @@ std::vector<dvec3> frustumCorners(const Camera& camera, double aspect) {
   return result;
 }
 
-std::array<dvec3, 8> corners(const dmat4& worldFromUnit) {
-  std::array<dvec3, 8> result;
-  for (int i = 0; i < 8; ++i)
-    result[static_cast<size_t>(i)] = dvec3(worldFromUnit * dvec4(i & 1, i >> 1 & 1, i >> 2 & 1, 1));
-  return result;
-}
-
 void appendClipped(Polygon polygon, const std::vector<dvec4>& planes, std::vector<dvec3>& points) {
   polygon = clipped(std::move(polygon), planes);
   points.insert(points.end(), polygon.begin(), polygon.end());
@@ -86,7 +79,7 @@ std::vector<std::vector<dvec3>> visibleParts(const std::vector<dmat4>& worldFrom
   std::vector<std::vector<dvec3>> parts;
   for (const dmat4& box : worldFromUnit) {
     std::vector<dvec3>& points = parts.emplace_back();
-    const auto corner = corners(box);
+    const auto corner = base::boxCorners(box);
     for (const auto& quad : quads)
       appendClipped({corner[quad[0]], corner[quad[1]], corner[quad[2]], corner[quad[3]]}, planes, points);
     // Corners of the frustum inside the box bound what is seen of it, too.
@@ -134,7 +127,7 @@ std::vector<dmat4> boundingBoxes(const Scene& scene) {
 std::vector<dvec3> boundingPoints(const Scene& scene, const std::vector<dmat4>& worldFromUnit) {
   std::vector<dvec3> points;
   const auto append = [&](const dmat4& box) {
-    const auto corner = corners(box);
+    const auto corner = base::boxCorners(box);
     points.insert(points.end(), corner.begin(), corner.end());
   };
   for (const dmat4& box : boundingBoxes(scene)) append(box);

@@ -2,18 +2,19 @@
 #include <gtest/gtest.h>
 
 #include "pipelines/smoke_rays.h"
-#include "scene/camera_view.h"
 
 namespace sfumato::pipelines {
 namespace {
 
 // Pixels of 1/100 m at depth 1; smoke between depths 1 and 3.
-shared::ViewParams camera(bool orthographic = false) {
-  shared::ViewParams view{};
-  view.viewFromWorld = glm::mat4(1);
-  view.halfExtent = {1, 1, orthographic ? 1 : 0, 0};
-  view.size = {200, 200, 0, 0};
-  return view;
+constexpr int height = 200;
+
+scene::Camera camera(bool orthographic = false) {
+  scene::Camera camera;
+  camera.orthographic = orthographic;
+  camera.yMagnitude = 1;
+  camera.yfov = glm::radians(90.0);
+  return camera;
 }
 
 volumes::MediumExtent smoke(double voxel, double nearest = 1, double farthest = 3) {
@@ -28,7 +29,7 @@ int sideOf(std::vector<volumes::MediumExtent> media, double spacing, bool orthog
   Quality quality;
   quality.smokeRaySpacing = spacing;
   quality.halfResolutionSmoke = half;
-  return smokeBlockSide(media, camera(orthographic), quality);
+  return smokeBlockSide(media, camera(orthographic), height, quality);
 }
 
 TEST(SmokeBlockSide, IsWhatVoxelsCoverWhereTheyAreFarthest) {
