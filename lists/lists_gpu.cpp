@@ -269,9 +269,11 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
   }
   if (options_.observer) options_.observer->allocates(device);
   bool sorted = false;
-  const Stored stored =
-      linked() ? link(device, window, draw, counted, sorted) : scatter(device, window, draw);
-  ++statistics.builds;
+  const bool nothing = !linked() && counted.counters.total == 0;
+  const Stored stored = nothing    ? Stored::All
+                        : linked() ? link(device, window, draw, counted, sorted)
+                                   : scatter(device, window, draw);
+  if (!nothing) ++statistics.builds;
   if (stored == Stored::PoolTooSmall) return buildPrefix(device, window, draw, wholly, true, statistics);
   if (stored == Stored::NotAll) {
     // What lost nodes once is not used again.
@@ -282,7 +284,7 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
     useStrategy(linked() ? Strategy::Count : Strategy::Append);
     return buildPrefix(device, window, draw, wholly, true, statistics);
   }
-  if (!sorted) sort(device, window.cells, counted);
+  if (!sorted && !nothing) sort(device, window.cells, counted);
 
   builtCells_ = window.cells;
   builtNodes_ = counted.counters.total;
