@@ -1,5 +1,6 @@
 // How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built. VOLUME_COUNT is
-// defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel of surfaces.
+// defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel of surfaces, OPAQUE_SHADOWS
+// when no surface lets light through.
 #include "shaders/deepshadow/faces.glsl"
 
 // As buffer textures, because all maps together may be larger than one storage block.
@@ -22,21 +23,27 @@ uint knotCount(ShadowTexel texel) {
 #else
 
 // Optical depth from the light to `depth` in a texel that has knots: the last unit that begins at or before it is found
-// by bisection; tau is linear from the last knot there to the next one.
-vec3 opticalDepthAt(ShadowTexel texel, float depth) {
+// by bisection; tau is linear from the last knot there to the next one. `last`: or behind that.
+vec3 opticalDepthAt(ShadowTexel texel, float depth, float last) {
   bool grey = (texel.count & SHADOW_GREY) != 0u;
   uint units = grey ? (knotCount(texel) + 1u) >> 1 : knotCount(texel);
-  uint low = 0u;
+  uint low = depth < last ? 0u : units - 1u;
   uint high = units;  // units [0, low) begin at or before depth, units [high, units) behind it
+  vec4 before = vec4(0.0);  // unit low - 1
+  vec4 after = vec4(0.0);   // unit high
   while (low < high) {
     uint middle = (low + high) >> 1;
-    if (texelFetch(shadowKnots, int(texel.first + middle)).x <= depth) low = middle + 1u;
-    else high = middle;
+    vec4 unit = texelFetch(shadowKnots, int(texel.first + middle));
+    if (unit.x <= depth) {
+      low = middle + 1u;
+      before = unit;
+    } else {
+      high = middle;
+      after = unit;
+    }
   }
   if (low == 0u) return vec3(0.0);
-  vec4 before = texelFetch(shadowKnots, int(texel.first + low - 1u));
-  vec4 after = vec4(NOTHING_OPAQUE, grey ? before.www : before.yzw);
-  if (low < units) after = texelFetch(shadowKnots, int(texel.first + low));
+  if (low == units) after = vec4(NOTHING_OPAQUE, grey ? before.www : before.yzw);
   if (grey) {
     bool second = before.z <= depth;
     after = second ? after.xyyy : before.zwww;
@@ -49,7 +56,11 @@ vec3 opticalDepthAt(ShadowTexel texel, float depth) {
 
 // Through surfaces that let light pass; `ownTau` is taken out.
 vec3 runTransmittance(ShadowTexel texel, float depth, vec3 ownTau) {
-  return knotCount(texel) == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel, depth), 0.0));
+#ifdef OPAQUE_SHADOWS
+  return vec3(1.0);
+#else
+  return knotCount(texel) == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel, depth, NOTHING_OPAQUE), 0.0));
+#endif
 }
 
 // Walks the own steps of a texel (see ShadowTexel) up to `depth`: gives what those of `object` add to the optical
@@ -108,7 +119,8 @@ vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
   for (int i = 0; i < 4; ++i) {
     ivec2 offset = ivec2(i & 1, i >> 1);
     ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
-    if (knotCount(texel) != 0u) tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth);
+    if (knotCount(texel) != 0u)
+      tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth, texel.opaqueDepth);
   }
 #endif
   return exp(-tau);

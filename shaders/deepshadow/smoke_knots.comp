@@ -69,7 +69,7 @@ void main() {
 #endif
   uint first;
   if (!takeUnits(grey ? (count + 1u) / 2u : count, first)) return;
-  texels[numberOfCell()] = ShadowTexel(uint(params.units.x) + first, count | (grey ? SHADOW_GREY : 0u), NOTHING_OPAQUE);
+  texels[numberOfCell()] = ShadowTexel(uint(params.units.x) + first, count | (grey ? SHADOW_GREY : 0u), march.segment.depth);
 
   place = 2u * first;
   for (uint i = 0u; i < min(count, KEPT); ++i) writeKnot(kept[i]);

@@ -23,7 +23,7 @@ struct ShadowFace {
 struct ShadowTexel {
   uint first;         // unit of the pool
   uint count;         // knots; and SHADOW_GREY, SHADOW_OWN_STEPS
-  float opaqueDepth;  // 3e38: nothing opaque; of smoke always
+  float opaqueDepth;  // 3e38: nothing opaque; of smoke: depth of the last knot
 };
 
 struct ShadowKnot {
