@@ -45,6 +45,8 @@ struct WalkOptions {
   bool deep;
 
   bool takesBlocks() const { return smokeBlockSide > 1 && !deep; }
+  // Rays that march smoke by themselves, and those that are recorded, are all walked.
+  bool passes(const SceneGpu& scene) const { return !deep && (scene.volumes().empty() || takesBlocks()); }
 };
 
 // Of programs that march through smoke.
@@ -59,9 +61,18 @@ gl::ShaderDefines marchDefines(const SceneGpu& scene, const Quality& quality, co
 gl::ShaderDefines resolveDefines(const SceneGpu& scene, const Quality& quality, const WalkOptions& options) {
   gl::ShaderDefines defines = marchDefines(scene, quality, options);
   if (options.takesBlocks()) defines.emplace_back("SMOKE_BLOCKS", "1");
+  if (options.passes(scene)) defines.emplace_back("PASSING_RAYS", "1");
   if (quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
   if (options.deep) defines.emplace_back("DEEP", "1");
   return gl::joined(defines, occlusionDefines(scene.occlusionOf(quality)));
+}
+
+// Of the program that tells the rays that are to be walked.
+gl::ShaderDefines passingDefines(const WalkOptions& options) {
+  gl::ShaderDefines defines = {{"SAMPLES", std::to_string(options.samples)}};
+  if (options.takesBlocks()) defines.emplace_back("SMOKE_BLOCKS", "1");
+  if (options.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  return defines;
 }
 
 // Pixels that are walked sample by sample: see shaders/shared/resolve.h.
@@ -333,29 +344,44 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec4) : 0);
   const SplitRays ofPixels{split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1};
 
-  const auto walkAll = [&](size_t count) {
-    const Profiler::Scope time(device.profiler(), "walk");
+  const auto paramsOf = [&](size_t count) {
     shared::ResolveParams params = resolveParams(inputs);
     params.options.w = static_cast<int>(count);
     params.blocks.x = inputs.smokeBlockSide;
+    lookups.bindStorage(STORAGE_LOOKUPS);
+    smoke.bind();
+    return params;
+  };
+  const auto walkAll = [&](size_t count) {
+    const Profiler::Scope time(device.profiler(), "walk");
     int dispatches = 0;
-    shared::ResolveCounters counted{};
-    do {
+    shared::ResolveParams params = paramsOf(count);
+    for (shared::ResolveCounters counted{.unfinished = 1}; count > 0 && counted.unfinished > 0;
+         params.options.x = 0) {
       base::check(dispatches < maxResolveDispatches, "the resolve ends");
-      lookups.bindStorage(STORAGE_LOOKUPS);
-      smoke.bind();
       if (inputs.occlusion) inputs.occlusion->bind();
       counted = walk.dispatch(program, params);
       frame.statistics.cutWalks += counted.boundHit;
       ++dispatches;
-      params.options.x = 0;
-    } while (counted.unfinished > 0);
+    }
     frame.statistics.resolveDispatches += dispatches;
   };
-  if (frame.deep)
+  if (frame.deep) {
     recordDeep(device, {inputs.window, ofPixels, walkAll}, inputs.deepLimits, *frame.deep);
-  else
+  } else if (options.passes(inputs.scene)) {
+    const gl::Buffer walked(device, "walked rays", rayCount * sizeof(uint32_t));
+    walked.bindStorage(STORAGE_WALKED_RAYS);
+    const size_t count = [&] {
+      const Profiler::Scope time(device.profiler(), "passing rays");
+      return walk
+          .dispatch(device.program({"pipelines/passing_rays.comp"}, passingDefines(options)),
+                    paramsOf(rayCount))
+          .groups;
+    }();
+    walkAll(count);
+  } else {
     walkAll(rayCount);
+  }
   frame.statistics.splitPixels += split.count;
   readRays(device, rays, ofPixels, rayCount, inputs.window, frame);
   if (inputs.countLookups) readLookups(lookups, ofPixels, rayCount, frame.statistics.lookups);

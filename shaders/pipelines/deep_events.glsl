@@ -27,9 +27,19 @@ void recordEvent(float front, float back, vec3 added, vec3 throughput) {
     deepEvents[place] = DeepEvent(deepRay, front, back, added.r, added.g, added.b, throughput.r, throughput.g, throughput.b);
 }
 #else
+#ifdef PASSING_RAYS
+layout(std430, binding = STORAGE_WALKED_RAYS) readonly buffer WalkedRays {
+  uint walkedRays[];
+};
+
+uint rayNumber(uint invocation) {
+  return walkedRays[invocation];
+}
+#else
 uint rayNumber(uint invocation) {
   return invocation;
 }
+#endif
 
 void recordEvent(float front, float back, vec3 added, vec3 throughput) {}
 #endif

@@ -4,10 +4,11 @@
 // SMOKE is defined when there are media; then VOLUME_COUNT says how many. SHADOW_OBJECTS is defined when there are
 // objects that do not shadow themselves. SMOKE_BLOCKS is defined when blocks of pixels marched the smoke before. DEEP is
 // defined when what each ray meets is recorded for a deep image; then the rays are those of a list. AMBIENT is defined
-// when there is ambient light, SSAO when what takes it from opaque surfaces was drawn before.
+// when there is ambient light, SSAO when what takes it from opaque surfaces was drawn before. PASSING_RAYS is defined when
+// those that no surface stops were told apart before (passing_rays.comp).
 #include "shaders/pipelines/accessibility.glsl"
-#include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/deep_events.glsl"
+#include "shaders/pipelines/rays.glsl"
 #include "shaders/pipelines/surface_lighting.glsl"
 #include "shaders/pipelines/surface_runs.glsl"
 #include "shaders/shared/linear_id.glsl"
@@ -18,46 +19,8 @@
 #include "shaders/pipelines/smoke_blocks.glsl"
 #endif
 
-layout(std430, binding = STORAGE_RAYS) buffer Rays {
-  RayState rays[];
-};
-layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
-  uint pixelGroups[];
-};
-layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 layout(binding = TEXTURE_SURFACE_1) uniform pixelUsampler opaqueSurface1;
-
-#ifdef COUNT_LOOKUPS
-layout(std430, binding = STORAGE_LOOKUPS) buffer RayLookups {
-  uvec4 rayLookups[];  // x: lights asked, y: shadows, z: steps in smoke looked at, w: jumped over
-};
-#endif
-
-const float FINISHED = 3e38;
-
-// Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
-struct RayPlace {
-  ivec2 pixel;  // of the image
-  int number;  // of the sample
-  bool split;
-};
-
-RayPlace rayPlace(uint ray) {
-  uint pixels = uint(view.window.z * view.window.w);
-  uint pixel = ray;
-  int number = 0;
-  bool split = false;
-  if (ray < pixels) {
-    split = pixelGroups[ray] != 0u;
-  } else {
-    pixel = pixelGroups[pixels + (ray - pixels) / uint(SAMPLES - 1)];
-    number = 1 + int((ray - pixels) % uint(SAMPLES - 1));
-    split = true;
-  }
-  ivec2 place = ivec2(int(pixel) % view.window.z, int(pixel) / view.window.z);
-  return RayPlace(view.window.xy + place, number, split);
-}
 
 void main() {
   uint number = linearId();
@@ -96,7 +59,7 @@ void main() {
   float nearest = surfaces.count != 0u ? listDepth(surfaces.first) : rayEnd;
   bool smoky = media.rangeOfAll.x < min(smokeEnd, rayEnd);
   while (smoky) {
-    taps = blockTaps(position, media, min(rayEnd, smokeEnd), min(rayEnd, nearest) < smokeEnd);
+    taps = blockTaps(position, min(rayEnd, smokeEnd) - depthSlack(media), min(rayEnd, nearest) < smokeEnd);
     if (!first) seenBefore = seenTo(taps, depth);
     smoky = false;
   }

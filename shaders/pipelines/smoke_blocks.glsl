@@ -2,7 +2,6 @@
 // sees up to a depth is interpolated from what the blocks around it saw up to there.
 #include "shaders/shared/resolve_block.glsl"
 #include "shaders/shared/view_block.glsl"
-#include "shaders/volumes/media.glsl"
 
 layout(binding = TEXTURE_SMOKE_BLOCKS) uniform samplerBuffer smokeBlocks;
 layout(binding = TEXTURE_SMOKE_KNOTS) uniform usamplerBuffer smokeKnots;
@@ -67,25 +66,17 @@ struct BlockTaps {
   bool stops;       // see blockTaps
 };
 
-// Depths along a ray that differ by less see about the same smoke.
-float depthSlack(MediaRay media) {
-  float slack = 3e38;
-  for (int v = 0; v < MARCHED; ++v) slack = min(slack, 4.0 * media.stride[v]);
-  return slack;
-}
-
-// For a ray through a position of the image that goes to `end`; `stops`: surfaces stand in the smoke before that, so that it
-// must be known up to them. Blocks that see less far do not count, or what is behind an edge would show beside it (joint
-// bilateral upsampling: Kopf, Cohen, Lischinski and Uyttendaele 2007); that of the pixel itself always does, and alone if it
-// was refined.
-BlockTaps blockTaps(vec2 position, MediaRay media, float end, bool stops) {
+// For a ray through a position of the image; `stops`: surfaces stand before or in the smoke, so that it must be known up to
+// them. Blocks that do not reach that depth do not count, or what is behind an edge would show beside it (joint bilateral
+// upsampling: Kopf, Cohen, Lischinski and Uyttendaele 2007); that of the pixel itself always does, and alone if it was
+// refined.
+BlockTaps blockTaps(vec2 position, float reach, bool stops) {
   ivec4 blocks = blocksOfWindow();
   vec2 place = position / float(params.blocks.x) - vec2(blocks.xy);
   ivec2 own = ivec2(place);
   ivec2 low = ivec2(floor(place - 0.5));
   vec2 between = place - 0.5 - vec2(low);
   BlockTaps taps = BlockTaps(ivec4(0), vec4(0.0), SmokeSeen(vec3(0.0), vec3(0.0)), stops);
-  float slack = depthSlack(media);
   float weights = 0.0;
   uint refined = 0u;
   for (int i = 0; i < 4; ++i) {
@@ -95,7 +86,7 @@ BlockTaps blockTaps(vec2 position, MediaRay media, float end, bool stops) {
     vec4 radianceReach = texelFetch(smokeBlocks, 3 * number);
     vec4 passedStart = texelFetch(smokeBlocks, 3 * number + 1);
     vec4 rest = texelFetch(smokeBlocks, 3 * number + 2);
-    bool tells = radianceReach.w >= end - slack &&
+    bool tells = radianceReach.w >= reach &&
                  (!stops || floatBitsToInt(rest.w) > 0 || passedStart.w == SMOKE_ENDLESS);
     vec2 part = mix(1.0 - between, between, vec2(corner));
     float weight = tells || at == own ? part.x * part.y : 0.0;

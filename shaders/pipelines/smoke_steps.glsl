@@ -3,6 +3,13 @@
 
 uint marched = 0u;  // steps of this invocation
 
+// Depths along a ray that differ by less see about the same smoke.
+float depthSlack(MediaRay media) {
+  float slack = 3e38;
+  for (int v = 0; v < MARCHED; ++v) slack = min(slack, float(STEPS) * media.stride[v]);
+  return slack;
+}
+
 // The next steps that hold smoke or fire, at most STEPS of them, from `depth` on and before `limit`; empty ones cost no more than
 // their density. Moves the depth to the end of the last one.
 Steps nextSteps(MediaRay media, float metresPerDepth, float limit, inout float depth, inout vec3 throughput) {

@@ -34,6 +34,7 @@
 #define STORAGE_LIST_PAYLOADS 21  // likewise
 #define STORAGE_BENDS 9             // of each pixel: see layer_walk.comp
 #define STORAGE_SMOKE_PARENTS 25  // uint[]: blocks of smoke that are refined
+#define STORAGE_WALKED_RAYS 25    // uint[]: numbers of the rays that meet surfaces
 #define STORAGE_DEEP_RAYS 25      // the rays that are recorded: see deep_events.glsl
 #define STORAGE_DEEP_EVENTS 26    // DeepEvent[]
 

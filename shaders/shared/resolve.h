@@ -53,7 +53,7 @@ struct SmokeBlock {
 
 struct ResolveCounters {
   uint groups;      // pixels that are split, counted past the capacity; of layers: rays that met a surface; of blocks of
-                    // smoke: knots, or those that are refined
+                    // smoke: knots, or those that are refined; of all rays: those that are to be walked
   uint unfinished;  // rays that need another dispatch
   uint boundHit;    // walks of light lists that were cut (never silently)
 };

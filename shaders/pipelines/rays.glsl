@@ -1,0 +1,44 @@
+// The rays of a window's pixels and of their samples: see shaders/shared/resolve.h.
+#include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/resolve_block.glsl"
+#include "shaders/shared/view_block.glsl"
+
+layout(std430, binding = STORAGE_RAYS) buffer Rays {
+  RayState rays[];
+};
+layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
+  uint pixelGroups[];
+};
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
+
+#ifdef COUNT_LOOKUPS
+layout(std430, binding = STORAGE_LOOKUPS) buffer RayLookups {
+  uvec4 rayLookups[];  // x: lights asked, y: shadows, z: steps in smoke looked at, w: jumped over
+};
+#endif
+
+const float FINISHED = 3e38;
+
+// Which pixel and which of its samples a ray goes through; `split`: the pixel's samples have a ray each.
+struct RayPlace {
+  ivec2 pixel;  // of the image
+  int number;  // of the sample
+  bool split;
+};
+
+RayPlace rayPlace(uint ray) {
+  uint pixels = uint(view.window.z * view.window.w);
+  uint pixel = ray;
+  int number = 0;
+  bool split = false;
+  if (ray < pixels) {
+    split = pixelGroups[ray] != 0u;
+  } else {
+    pixel = pixelGroups[pixels + (ray - pixels) / uint(SAMPLES - 1)];
+    number = 1 + int((ray - pixels) % uint(SAMPLES - 1));
+    split = true;
+  }
+  ivec2 place = ivec2(int(pixel) % view.window.z, int(pixel) / view.window.z);
+  return RayPlace(view.window.xy + place, number, split);
+}
