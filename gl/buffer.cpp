@@ -83,13 +83,17 @@ void Buffer::read(std::span<std::byte> bytes, size_t offset) const {
                      static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
-void Buffer::readMapped(std::span<std::byte> bytes) const {
-  base::check(bytes.size() <= bytes_, "a read stays inside its buffer");
+const void* Buffer::map(size_t bytes) const {
+  base::check(bytes <= bytes_, "a read stays inside its buffer");
   glBindBuffer(GL_COPY_READ_BUFFER, name());
   const void* mapped =
-      glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), GL_MAP_READ_BIT);
+      glMapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
   if (mapped == nullptr) fail(ExitCode::Memory, "{}: the driver cannot map it", label_);
-  std::memcpy(bytes.data(), mapped, bytes.size());
+  return mapped;
+}
+
+void Buffer::unmap() const {
+  glBindBuffer(GL_COPY_READ_BUFFER, name());
   glUnmapBuffer(GL_COPY_READ_BUFFER);
 }
 

@@ -55,8 +55,13 @@ class Buffer {
     return readValues<T>(1).front();
   }
 
-  // The same through a mapping.
-  void readMapped(std::span<std::byte> bytes) const;
+  // The same through a mapping, without a copy: use(span of the first `count` values).
+  template <typename T, typename Use>
+  void withValues(size_t count, const Use& use) const {
+    if (count == 0) return use(std::span<const T>());
+    use(std::span(static_cast<const T*>(map(count * sizeof(T))), count));
+    unmap();
+  }
 
   void bindStorage(unsigned binding) const;
   // `offset` is a multiple of 256.
@@ -65,6 +70,9 @@ class Buffer {
   void bindAtomicCounter(unsigned binding) const;
 
  private:
+  const void* map(size_t bytes) const;
+  void unmap() const;
+
   Object<deleteBuffer> object_;
   MemoryLedger* ledger_ = nullptr;
   std::string label_;

@@ -76,7 +76,7 @@ class Recorder {
         bytes_(bytesOf(image)) {}
 
   void record() {
-    const size_t pixels = rays_.ofPixels.groups.size();
+    const size_t pixels = rays_.ofPixels.pixels;
     size_t count = firstBatch;
     for (size_t first = 0; first < pixels;) {
       count = std::min(count, pixels - first);

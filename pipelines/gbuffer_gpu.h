@@ -16,7 +16,8 @@
 namespace sfumato::pipelines {
 
 // Multisample textures: words 0-3 and 4-7 of shared::PackedSurface, and depth in metres along -Z of the view
-// (3e38: nothing). 36 bytes a sample, 8 more with the base colour; 4 more while it is drawn.
+// (3e38: nothing). 36 bytes a sample, 8 more with the base colour; 4 more while it is drawn. In scenes
+// without opaque surfaces the words take a texel alone, as all depths say that they are not to be read.
 struct GBuffer {
   gl::Texture surface0;
   gl::Texture surface1;

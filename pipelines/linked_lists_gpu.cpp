@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "gl/commands.h"
 #include "gl/program.h"
 #include "pipelines/ambient_occlusion_gpu.h"
@@ -43,6 +44,7 @@ struct WalkOptions {
   int smokeBlockSide;  // pixels
   bool countLookups;
   bool deep;
+  bool transmittance;  // of each ray is kept
 
   bool takesBlocks() const { return smokeBlockSide > 1 && !deep; }
   // Rays that march smoke by themselves, and those that are recorded, are all walked.
@@ -64,6 +66,7 @@ gl::ShaderDefines resolveDefines(const SceneGpu& scene, const Quality& quality, 
   if (options.passes(scene)) defines.emplace_back("PASSING_RAYS", "1");
   if (quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
   if (options.deep) defines.emplace_back("DEEP", "1");
+  if (options.transmittance) defines.emplace_back("TRANSMITTANCE", "1");
   return gl::joined(defines, occlusionDefines(scene.occlusionOf(quality)));
 }
 
@@ -72,6 +75,7 @@ gl::ShaderDefines passingDefines(const WalkOptions& options) {
   gl::ShaderDefines defines = {{"SAMPLES", std::to_string(options.samples)}};
   if (options.takesBlocks()) defines.emplace_back("SMOKE_BLOCKS", "1");
   if (options.countLookups) defines.emplace_back("COUNT_LOOKUPS", "1");
+  if (options.transmittance) defines.emplace_back("TRANSMITTANCE", "1");
   return defines;
 }
 
@@ -126,8 +130,7 @@ Split splitPixels(gl::Device& device, const SplitInputs& inputs) {
   const size_t pixels = inputs.window.pixels();
   Split split;
   if (inputs.gbuffer.samplePositions.size() == 1) {
-    split.groups = gl::Buffer(device, "pixel groups", pixels * sizeof(uint32_t));
-    split.groups.clear();
+    split.groups = gl::Buffer(device, "pixel groups", 0);
     return split;
   }
   gl::Buffer counters(device, "resolve counters", sizeof(shared::ResolveCounters));
@@ -149,34 +152,33 @@ Split splitPixels(gl::Device& device, const SplitInputs& inputs) {
   }
 }
 
-// Radiance, and transmittance where that is wanted, of the window's pixels. A split pixel is the mean of its
-// samples.
-void readRays(gl::Device& device, const gl::Buffer& rays, const SplitRays& ofPixels, size_t rayCount,
+// What the rays of the window's pixels saw, radiance and then transmittance where that is wanted: see
+// shaders/pipelines/rays.glsl. A split pixel is the mean of its samples.
+void readSeen(gl::Device& device, const gl::Buffer& seen, const SplitRays& ofPixels, size_t rayCount,
               const Tile& window, Frame& frame) {
   const Profiler::Scope time(device.profiler(), "read back");
-  const auto states = rays.readValues<shared::RayState>(rayCount);
-  const auto read = [&](auto colourOf, image::Image& image) {
-    for (size_t pixel = 0; pixel < window.pixels(); ++pixel) {
-      glm::vec3 mean(0.f);
-      float count = 0;
-      ofPixels.forEachRay(pixel, [&](size_t ray) {
-        mean += colourOf(states[ray]);
-        ++count;
+  const auto transmittance = frame.aovs.find(Aov::Transmittance);
+  const bool both = transmittance != frame.aovs.end();
+  seen.withValues<glm::vec3>(rayCount * (both ? 2 : 1), [&](std::span<const glm::vec3> values) {
+    const auto write = [&](std::span<const glm::vec3> ofRays, image::Image& image) {
+      base::parallelFor(window.height, [&](long row) {
+        const auto across = static_cast<size_t>(window.width);
+        for (size_t pixel = static_cast<size_t>(row) * across, end = pixel + across; pixel < end; ++pixel) {
+          glm::vec3 mean(0.f);
+          float count = 0;
+          ofPixels.forEachRay(pixel, [&](size_t ray) {
+            mean += ofRays[ray];
+            ++count;
+          });
+          mean /= count;
+          const glm::ivec2 place = window.placeOf(pixel, image.height);
+          std::copy_n(&mean.x, 3, image.pixel(place.x, place.y));
+        }
       });
-      mean /= count;
-      const glm::ivec2 place = window.placeOf(pixel, image.height);
-      std::copy_n(&mean.x, 3, image.pixel(place.x, place.y));
-    }
-  };
-  read([](const shared::RayState& ray) { return glm::vec3(ray.radianceR, ray.radianceG, ray.radianceB); },
-       frame.radiance);
-  const auto wanted = frame.aovs.find(Aov::Transmittance);
-  if (wanted != frame.aovs.end())
-    read(
-        [](const shared::RayState& ray) {
-          return glm::vec3(ray.throughputR, ray.throughputG, ray.throughputB);
-        },
-        wanted->second);
+    };
+    write(values.first(rayCount), frame.radiance);
+    if (both) write(values.last(rayCount), transmittance->second);
+  });
 }
 
 void add(const glm::u64vec4& counted, Lookups& all) {
@@ -189,7 +191,7 @@ void add(const glm::u64vec4& counted, Lookups& all) {
 // Adds what the window's pixels looked up; that of a split pixel is the sum over its samples.
 void readLookups(const gl::Buffer& lookups, const SplitRays& ofPixels, size_t rayCount, Lookups& all) {
   const auto ofRays = lookups.readValues<glm::uvec4>(rayCount);
-  const size_t pixels = ofPixels.groups.size();
+  const size_t pixels = ofPixels.pixels;
   for (size_t pixel = 0; pixel < pixels; ++pixel) {
     glm::u64vec4 sum(0);
     ofPixels.forEachRay(pixel, [&](size_t ray) { sum += ofRays[ray]; });
@@ -213,9 +215,8 @@ size_t mostPixels(const gl::Device& device) {
 // What the passes that walk rays read and write, beside what only one of them does.
 class Walk {
  public:
-  Walk(gl::Device& device, const ResolveInputs& inputs, const gl::Buffer& states)
+  Walk(gl::Device& device, const ResolveInputs& inputs)
       : inputs_(inputs),
-        states_(states),
         passBlock_(device, "resolve pass", sizeof(shared::ResolveParams)),
         counters_(device, "resolve counters", sizeof(shared::ResolveCounters)) {}
 
@@ -225,7 +226,6 @@ class Walk {
     counters_.clear();
     bindRayInputs(inputs_);
     passBlock_.bindUniform(UNIFORM_PASS);
-    states_.bindStorage(STORAGE_RAYS);
     inputs_.split.groups.bindStorage(STORAGE_PIXEL_GROUPS);
     counters_.bindStorage(STORAGE_COUNTERS);
     inputs_.lights.bind();
@@ -238,7 +238,6 @@ class Walk {
 
  private:
   const ResolveInputs& inputs_;
-  const gl::Buffer& states_;
   gl::Buffer passBlock_;
   gl::Buffer counters_;
 };
@@ -262,7 +261,8 @@ class SmokeBlocks {
     const gl::Buffer parents(device, "smoke parents", count * sizeof(uint32_t));
     parents.bindStorage(STORAGE_SMOKE_PARENTS);
     bind();
-    const size_t refined = Walk(device, inputs, blocks_)
+    blocks_.bindStorage(STORAGE_RAYS);
+    const size_t refined = Walk(device, inputs)
                                .dispatch(device.program({"pipelines/smoke_refine.comp"}, defines), params)
                                .groups;
     if (refined == 0) return;
@@ -300,8 +300,10 @@ class SmokeBlocks {
     params.blocks.y = static_cast<int>((most - knots_) / count);
     params.blocks.z = -1;
     blocks_ = grown(device, "smoke blocks", blocks_, count * sizeof(shared::SmokeBlock));
-    Walk walk(device, inputs, blocks_);
-    const size_t knots = walk.dispatch(program, params).groups;
+    Walk walk(device, inputs);
+    blocks_.bindStorage(STORAGE_RAYS);
+    const bool surfaces = inputs.scene.geometry().triangles() > 0;  // without them nothing stops in the smoke
+    const size_t knots = surfaces ? walk.dispatch(program, params).groups : 0;
     params.blocks.z = static_cast<int>(knots_);
     knotBuffer_ = grown(device, "smoke knots", knotBuffer_, knots * knotBytes);
     knots_ += knots;
@@ -332,58 +334,62 @@ bool resolve(gl::Device& device, const ResolveInputs& inputs, Frame& frame) {
   const size_t samples = inputs.gbuffer.samplePositions.size();
   const size_t rayCount = inputs.window.pixels() + split.count * (samples - 1);
   if (rayCount > mostRays(device)) return false;
-  const WalkOptions options{samples, inputs.smokeBlockSide, inputs.countLookups, frame.deep.has_value()};
+  const bool transmittance = frame.aovs.contains(Aov::Transmittance);
+  const WalkOptions options{samples, inputs.smokeBlockSide, inputs.countLookups, frame.deep.has_value(),
+                            transmittance};
   SmokeBlocks smoke;
   if (options.takesBlocks())
     smoke =
         SmokeBlocks(device, inputs, marchDefines(inputs.scene, inputs.quality, options), frame.statistics);
-  const gl::Program& program =
-      device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.scene, inputs.quality, options));
-  gl::Buffer rays(device, "resolve rays", rayCount * sizeof(shared::RayState));
-  Walk walk(device, inputs, rays);
-  gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec4) : 0);
-  const SplitRays ofPixels{split.groups.readValues<uint32_t>(inputs.window.pixels()), samples - 1};
-
+  const gl::Buffer seen(device, "seen by rays", rayCount * sizeof(glm::vec3) * (transmittance ? 2 : 1));
+  const gl::Buffer lookups(device, "lookups", inputs.countLookups ? rayCount * sizeof(glm::uvec4) : 0);
+  Walk walk(device, inputs);
   const auto paramsOf = [&](size_t count) {
     shared::ResolveParams params = resolveParams(inputs);
     params.options.w = static_cast<int>(count);
     params.blocks.x = inputs.smokeBlockSide;
+    seen.bindStorage(STORAGE_SEEN);
     lookups.bindStorage(STORAGE_LOOKUPS);
     smoke.bind();
     return params;
   };
-  const auto walkAll = [&](size_t count) {
+  size_t walkedCount = rayCount;
+  gl::Buffer walked;
+  if (options.passes(inputs.scene)) {
+    const Profiler::Scope time(device.profiler(), "passing rays");
+    walked = gl::Buffer(device, "walked rays", rayCount * sizeof(uint32_t));
+    walked.bindStorage(STORAGE_WALKED_RAYS);
+    const gl::Program& program = device.program({"pipelines/passing_rays.comp"}, passingDefines(options));
+    walkedCount = walk.dispatch(program, paramsOf(rayCount)).groups;
+  }
+  const gl::Buffer rays(device, "resolve rays", walkedCount * sizeof(shared::RayState));
+  const auto walkRays = [&](size_t count) {
     const Profiler::Scope time(device.profiler(), "walk");
-    int dispatches = 0;
+    const gl::Program& program =
+        device.program({"pipelines/resolve.comp"}, resolveDefines(inputs.scene, inputs.quality, options));
     shared::ResolveParams params = paramsOf(count);
-    for (shared::ResolveCounters counted{.unfinished = 1}; count > 0 && counted.unfinished > 0;
-         params.options.x = 0) {
+    rays.bindStorage(STORAGE_RAYS);
+    if (inputs.occlusion) inputs.occlusion->bind();
+    int dispatches = 0;
+    for (bool unfinished = true; unfinished; params.options.x = 0) {
       base::check(dispatches < maxResolveDispatches, "the resolve ends");
-      if (inputs.occlusion) inputs.occlusion->bind();
-      counted = walk.dispatch(program, params);
+      const shared::ResolveCounters counted = walk.dispatch(program, params);
       frame.statistics.cutWalks += counted.boundHit;
       ++dispatches;
+      unfinished = counted.unfinished > 0;
     }
     frame.statistics.resolveDispatches += dispatches;
   };
-  if (frame.deep) {
-    recordDeep(device, {inputs.window, ofPixels, walkAll}, inputs.deepLimits, *frame.deep);
-  } else if (options.passes(inputs.scene)) {
-    const gl::Buffer walked(device, "walked rays", rayCount * sizeof(uint32_t));
-    walked.bindStorage(STORAGE_WALKED_RAYS);
-    const size_t count = [&] {
-      const Profiler::Scope time(device.profiler(), "passing rays");
-      return walk
-          .dispatch(device.program({"pipelines/passing_rays.comp"}, passingDefines(options)),
-                    paramsOf(rayCount))
-          .groups;
-    }();
-    walkAll(count);
-  } else {
-    walkAll(rayCount);
-  }
+  const SplitRays ofPixels{
+      inputs.window.pixels(),
+      split.count > 0 ? split.groups.readValues<uint32_t>(inputs.window.pixels()) : std::vector<uint32_t>(),
+      samples - 1};
+  if (frame.deep)
+    recordDeep(device, {inputs.window, ofPixels, walkRays}, inputs.deepLimits, *frame.deep);
+  else if (walkedCount > 0)
+    walkRays(walkedCount);
   frame.statistics.splitPixels += split.count;
-  readRays(device, rays, ofPixels, rayCount, inputs.window, frame);
+  readSeen(device, seen, ofPixels, rayCount, inputs.window, frame);
   if (inputs.countLookups) readLookups(lookups, ofPixels, rayCount, frame.statistics.lookups);
   return true;
 }
@@ -519,7 +525,7 @@ void LinkedListsPipeline::prepare(const scene::Camera& camera, int height, const
                                   const FrameOptions& options) {
   const int side = smokeBlockSideOf(scene_, camera, height, quality);
   const WalkOptions walk{static_cast<size_t>(samplesOf(scene_, quality)), side, options.countLookups,
-                         options.deep};
+                         options.deep, options.aovs.contains(Aov::Transmittance)};
   scene_.device().program({"pipelines/resolve.comp"}, resolveDefines(scene_, quality, walk));
 }
 

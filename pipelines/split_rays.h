@@ -9,15 +9,17 @@ namespace sfumato::pipelines {
 
 // Their numbers: see shaders/shared/resolve.h.
 struct SplitRays {
-  std::vector<uint32_t> groups;  // pixelGroups of the window's pixels
+  size_t pixels = 0;
+  std::vector<uint32_t> groups;  // pixelGroups of them; empty: none is split
   size_t further = 0;            // rays of a split pixel beside its first one
 
   // Calls visit(number) for the rays of a pixel.
   template <typename Visit>
   void forEachRay(size_t pixel, const Visit& visit) const {
     visit(pixel);
-    if (const uint32_t group = groups[pixel]; group != 0)
-      for (size_t i = 0; i < further; ++i) visit(groups.size() + (group - 1) * further + i);
+    const uint32_t group = groups.empty() ? 0 : groups[pixel];
+    if (group != 0)
+      for (size_t i = 0; i < further; ++i) visit(pixels + (group - 1) * further + i);
   }
 };
 

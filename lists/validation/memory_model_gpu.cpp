@@ -415,9 +415,8 @@ Result apiBarrier(const Context& context) {
        }},
       {"mapping", gl::Reader::Update, counting, asTheyAre,
        [&](const gl::Buffer& written) {
-         Words words(apiWords);
-         written.readMapped(std::as_writable_bytes(std::span(words)));
-         found.write(std::as_bytes(std::span(words)));
+         written.withValues<uint32_t>(
+             apiWords, [&](std::span<const uint32_t> words) { found.write(std::as_bytes(words)); });
          found.bindStorage(1);
          compute("READ_STORAGE");
        }},

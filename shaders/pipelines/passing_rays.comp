@@ -31,7 +31,7 @@ void main() {
   radiance = seen.radiance;
   passed = seen.passed;
 #endif
-  rays[number] = RayState(radiance.r, radiance.g, radiance.b, FINISHED, passed.r, passed.g, passed.b, 0u);
+  keepSeen(number, radiance, passed);
 #ifdef COUNT_LOOKUPS
   rayLookups[number] = uvec4(0u);
 #endif

@@ -4,6 +4,7 @@
 #include "shaders/lights/light_lists.glsl"
 #include "shaders/lists/runs.glsl"
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/pixel_groups.glsl"
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/math.glsl"
 #include "shaders/shared/resolve_block.glsl"
@@ -14,9 +15,6 @@
 
 layout(std430, binding = STORAGE_RECEIVER_DEPTHS) writeonly buffer Receivers {
   vec2 receivers[];
-};
-layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
-  uint pixelGroups[];
 };
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
@@ -115,7 +113,7 @@ void main() {
   uint split = 0u;
   for (int i = 0; i < size.x * size.y; ++i) {
     ivec2 pixel = low + ivec2(i % size.x, i / size.x);
-    if (pixelGroups[listOfPixel(view, pixel)] != 0u) split |= 1u << i;
+    if (isSplit(listOfPixel(view, pixel))) split |= 1u << i;
     else addDepth(texelFetch(opaqueDepth, pixel - view.tile.xy, 0).r, opaque, open);
     listed = joined(listed, listedRange(pixel));
   }

@@ -19,21 +19,26 @@
 #include "shaders/pipelines/smoke_blocks.glsl"
 #endif
 
+const float FINISHED = 3e38;
+
+layout(std430, binding = STORAGE_RAYS) buffer Rays {
+  RayState rays[];  // of those that are walked
+};
 layout(binding = TEXTURE_SURFACE_0) uniform pixelUsampler opaqueSurface0;
 layout(binding = TEXTURE_SURFACE_1) uniform pixelUsampler opaqueSurface1;
 
 void main() {
-  uint number = linearId();
-  if (number >= uint(params.options.w)) return;
-  number = rayNumber(number);
+  uint walked = linearId();
+  if (walked >= uint(params.options.w)) return;
   bool first = params.options.x != 0;
-  float depth = first ? view.depthRange.x : rays[number].depth;
+  float depth = first ? view.depthRange.x : rays[walked].depth;
   if (depth >= FINISHED) return;
+  uint number = rayNumber(walked);
   RayPlace place = rayPlace(number);
   ListRun surfaces = listRun(listOfPixel(view, place.pixel));
-  uint passed = first ? 0u : rays[number].surfaces;
-  vec3 radiance = first ? vec3(0.0) : vec3(rays[number].radianceR, rays[number].radianceG, rays[number].radianceB);
-  vec3 throughput = first ? vec3(1.0) : vec3(rays[number].throughputR, rays[number].throughputG, rays[number].throughputB);
+  uint passed = first ? 0u : rays[walked].surfaces;
+  vec3 radiance = first ? vec3(0.0) : vec3(rays[walked].radianceR, rays[walked].radianceG, rays[walked].radianceB);
+  vec3 throughput = first ? vec3(1.0) : vec3(rays[walked].throughputR, rays[walked].throughputG, rays[walked].throughputB);
 
   // Surfaces are told at the pixel's centre; a sample's ray meets their plane elsewhere.
   vec2 centre = imagePlane(view, vec2(place.pixel) + 0.5);
@@ -146,6 +151,7 @@ void main() {
 #endif
   rayLookups[number] = first ? counted : rayLookups[number] + counted;
 #endif
-  rays[number] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
+  keepSeen(number, radiance, throughput);
+  rays[walked] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
                           throughput.b, passed);
 }

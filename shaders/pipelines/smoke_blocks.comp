@@ -2,6 +2,7 @@
 // surfaces stand in the smoke, knots are kept on the way. A block that has done much work goes on in the next dispatch.
 // SAMPLES is how many a pixel of the G-buffer has. REFINED is defined for blocks of single pixels.
 #include "shaders/pipelines/camera_ray.glsl"
+#include "shaders/pipelines/pixel_groups.glsl"
 #include "shaders/pipelines/smoke_blocks.glsl"
 #include "shaders/pipelines/smoke_steps.glsl"
 #include "shaders/pipelines/surface_runs.glsl"
@@ -18,9 +19,6 @@ layout(std430, binding = STORAGE_SMOKE_PARENTS) readonly buffer Parents {
   uint parents[];
 };
 #endif
-layout(std430, binding = STORAGE_PIXEL_GROUPS) readonly buffer Groups {
-  uint pixelGroups[];
-};
 #ifdef COUNT_LOOKUPS
 layout(std430, binding = STORAGE_LOOKUPS) buffer BlockLookups {
   uvec4 blockLookups[];  // see resolve.comp
@@ -40,7 +38,7 @@ Pixels pixelsOf(ivec2 first, int side, float smokeEnd) {
     ivec2 pixel = first + ivec2(i % side, i / side);
     if (!hasList(view, pixel)) continue;
     uint list = listOfPixel(view, pixel);
-    int samples = pixelGroups[list] != 0u ? SAMPLES : 1;
+    int samples = isSplit(list) ? SAMPLES : 1;
     for (int s = 0; s < samples; ++s) {
       float depth = texelFetch(opaqueDepth, pixel - view.tile.xy, s).r;
       pixels.farthest = max(pixels.farthest, depth);

@@ -28,6 +28,7 @@
 #define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
 #define STORAGE_VOLUMES 13        // VolumeData[]
 #define STORAGE_RAYS 14         // RayState[]
+#define STORAGE_SEEN 27         // float[]: what rays have seen: see rays.glsl
 #define STORAGE_COUNTERS 15       // the pass's own counters
 #define STORAGE_PIXEL_GROUPS 16   // which pixels are walked sample by sample: see resolve.h
 #define STORAGE_LIST_NODES 17     // keys or links, LIST_MAX_BANKS of them

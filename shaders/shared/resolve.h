@@ -7,7 +7,7 @@ SHARED_BEGIN
 // pixels - 1 are the pixels' (through sample 0 where split); then, for each group (a split pixel), one for each further
 // sample. pixelGroups[pixel] is 0 or the number of its group plus 1; pixelGroups[pixels + group] is the group's pixel.
 
-// How far a ray has come; kept between dispatches, as one may only do so much work.
+// How far a ray that is walked has come; kept between dispatches, as one may only do so much work.
 struct RayState {
   float radianceR;
   float radianceG;
