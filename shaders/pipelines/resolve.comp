@@ -63,10 +63,9 @@ void main() {
   SmokeSeen seenBefore = SmokeSeen(vec3(0.0), vec3(1.0));
   float nearest = surfaces.count != 0u ? listDepth(surfaces.first) : rayEnd;
   bool smoky = media.rangeOfAll.x < min(smokeEnd, rayEnd);
-  while (smoky) {
+  if (smoky) {
     taps = blockTaps(position, min(rayEnd, smokeEnd) - depthSlack(media), min(rayEnd, nearest) < smokeEnd);
     if (!first) seenBefore = seenTo(taps, depth);
-    smoky = false;
   }
 #elif defined(SMOKE)
   MediaRay media = mediaRay(ray.origin, ray.perDepth, vec2(view.depthRange.x, rayEnd), params.march.x);
@@ -87,7 +86,7 @@ void main() {
     float limit = min(nextSurface, media.rangeOfAll.y);
     depth = max(depth, min(media.rangeOfAll.x, nextSurface));
 #ifdef SMOKE_BLOCKS
-    while (depth < limit) {
+    if (depth < limit) {
       SmokeSeen seenNow = seenTo(taps, limit);
       vec3 share = throughput / max(seenBefore.passed, 1e-6);
       radiance += share * (seenNow.radiance - seenBefore.radiance);
@@ -125,7 +124,7 @@ void main() {
         seen = opaque < view.depthRange.y;
       }
       float at = listed ? nextSurface : opaque;
-      while (seen) {
+      if (seen) {
         Surface surface = unpackSurface(stored);
         vec2 position = vec2(place.pixel) + (place.split ? samplePosition(params, place.number) : vec2(0.5));
         float accessibility =
@@ -134,7 +133,6 @@ void main() {
         radiance += added;
         if (listed) throughput *= surfacePass(stored);
         recordEvent(at, at, added, listed ? throughput : vec3(0.0));
-        seen = false;
       }
       if (listed) depth = max(depth, nextSurface);
       ++passed;

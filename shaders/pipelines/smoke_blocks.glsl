@@ -100,28 +100,23 @@ BlockTaps blockTaps(vec2 position, float reach, bool stops) {
   taps.weight /= weights;
   taps.whole.radiance /= weights;
   taps.whole.passed /= weights;
-  while (refined != 0u) {  // a loop, because some drivers skip nothing else
+  if (refined != 0u) {
     ivec2 inBlock = ivec2((place - vec2(own)) * float(params.blocks.x));
     int number = int(refined) + inBlock.y * params.blocks.x + inBlock.x;
     taps.block = ivec4(number);
     taps.weight = vec4(1.0, 0.0, 0.0, 0.0);
     taps.whole = SmokeSeen(texelFetch(smokeBlocks, 3 * number).rgb, texelFetch(smokeBlocks, 3 * number + 1).rgb);
-    refined = 0u;
   }
   return taps;
 }
 
 SmokeSeen seenTo(BlockTaps taps, float depth) {
-  SmokeSeen sum = taps.whole;
-  bool within = taps.stops;
-  while (within) {  // likewise
-    sum = SmokeSeen(vec3(0.0), vec3(0.0));
-    for (int i = 0; i < 4; ++i) {
-      SmokeSeen seen = seenByBlock(taps.block[i], depth);
-      sum.radiance += taps.weight[i] * seen.radiance;
-      sum.passed += taps.weight[i] * seen.passed;
-    }
-    within = false;
+  if (!taps.stops) return taps.whole;
+  SmokeSeen sum = SmokeSeen(vec3(0.0), vec3(0.0));
+  for (int i = 0; i < 4; ++i) {
+    SmokeSeen seen = seenByBlock(taps.block[i], depth);
+    sum.radiance += taps.weight[i] * seen.radiance;
+    sum.passed += taps.weight[i] * seen.passed;
   }
   return sum;
 }
