@@ -114,39 +114,23 @@ class Builder {
 
   // For comparisons: all faces, one after the other, into linked lists. Returns their nodes.
   size_t link(std::span<const std::vector<FaceProjection>> facesOfLights, lists::Lists& lists) {
-    struct Face {
-      FaceProjection projection;
-      size_t firstTexel;
-      gl::Texture depth;
-    };
-    std::vector<Face> faces;
-    size_t firstTexel = 0;
-    for (const std::vector<FaceProjection>& ofLight : facesOfLights) {
-      for (const FaceProjection& face : ofLight) {
-        drawOpaque(face);
-        faces.push_back({face, firstTexel, std::move(depth_)});
-        depth_ = gl::Texture();
-        firstTexel += texelsOf(face);
-      }
-    }
     const auto forEachFace = [&](const auto& use) {
-      for (Face& face : faces) {
-        firstCell_ = face.firstTexel;
-        std::swap(depth_, face.depth);
-        use(face.projection);
-        std::swap(depth_, face.depth);
+      for (const std::vector<FaceProjection>& ofLight : facesOfLights) {
+        for (const FaceProjection& face : ofLight) {
+          use(face);
+          firstCell_ += texelsOf(face);
+        }
       }
       firstCell_ = 0;
     };
     const size_t nodes = lists.buildLinked(device_, inputs_.linkedNodes, [&](const lists::Pass& pass) {
-      forEachFace([&](const FaceProjection& face) {
-        if (inputs_.casters.listed) store(face, {pass.defines, {0, texelsOf(face)}});
-        if (!inputs_.volumes.empty()) linkSmoke(face, pass);
-      });
+      forEachFace([&](const FaceProjection& face) { linkSurfaces(face, pass); });
+      gl::storageBarrier();
+      if (!inputs_.volumes.empty()) forEachFace([&](const FaceProjection& face) { linkSmoke(face, pass); });
     });
+    lists.bindLinked(TEXTURE_LIST_RUNS, TEXTURE_SHADOW_KNOTS, TEXTURE_LIST_PAYLOADS);
     forEachFace([&](const FaceProjection& face) {
       useFace(face);
-      depth_.bind(TEXTURE_OPAQUE_DEPTH);
       lists.heads().bindStorage(STORAGE_LIST_HEADS);
       texels_.bindStorage(STORAGE_SHADOW_TEXELS);
       gl::dispatchLinear(device_.program({"deepshadow/linked_texels.comp"}), texelsOf(face));
@@ -244,6 +228,23 @@ class Builder {
     inputs_.casters.listed();
   }
 
+  // The surfaces of a face into linked lists.
+  void linkSurfaces(const FaceProjection& face, const lists::Pass& pass) {
+    useFace(face);
+    const gl::Framebuffer noTarget({face.side, face.side});
+    const auto draw = [&](const std::function<void()>& casters, const gl::ShaderDefines& more) {
+      const gl::ShaderDefines defines = gl::joined(gl::joined(inputs_.casters.defines, pass.defines), more);
+      gl::setDrawState(
+          {.program = &device_.program({"scene/surface.vert", "deepshadow/linked_surface.frag"}, defines),
+           .target = &noTarget,
+           .viewport = {0, 0, face.side, face.side},
+           .depthClamp = true});
+      casters();
+    };
+    draw(inputs_.casters.opaque, {{"OPAQUE", "1"}});
+    if (inputs_.casters.listed) draw(inputs_.casters.listed, {});
+  }
+
   // The smoke of a face into linked lists.
   void linkSmoke(const FaceProjection& face, const lists::Pass& pass) {
     useFace(face);
@@ -252,7 +253,6 @@ class Builder {
     params.units.x = inputs_.linkedSmokeNodes;
     passBlock_.writeValue(params);
     passBlock_.bindUniform(UNIFORM_PASS);
-    depth_.bind(TEXTURE_OPAQUE_DEPTH);
     inputs_.volumes.bind();
     gl::dispatchLinear(device_.program({"deepshadow/linked_smoke.comp"},
                                        gl::joined(inputs_.volumes.defines(), pass.defines)),

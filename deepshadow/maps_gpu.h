@@ -46,8 +46,9 @@ struct MapInputs {
   MapBudget budget{};
   double stepVoxels = 1.5;  // of the march through smoke, and the width of its texels
   lists::ListOptions lists{};
-  // For comparisons: lists stay linked, with so many nodes of smoke for each texel (deepshadow/walk.glsl); 0:
-  // runs of knots. Error bound, budgets and the flags of objects do not hold then.
+  // For comparisons: lists stay linked, with opaque surfaces in them and so many nodes of smoke for each
+  // texel (deepshadow/walk.glsl; Lindbeck 2015, 2.2); 0: runs of knots. Error bound, budgets and the flags of
+  // objects do not hold then.
   int linkedSmokeNodes = 0;
   size_t linkedNodes = 0;  // that the pool of linked lists has at first
 };

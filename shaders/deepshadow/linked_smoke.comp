@@ -1,7 +1,9 @@
 // The smoke of a face into linked lists, for comparisons: for each texel some nodes, each the optical depth of an equal
-// stretch of the ray through all media, up to the opaque depth. With one node this is the smoke of Lindbeck 2015, 2.2.5.
-#define LIST_PAYLOAD ShadowNode
+// stretch of the ray through all media, up to the opaque surface in the list. With one node this is the smoke of Lindbeck
+// 2015, 2.2.5.
 #include "shaders/shared/deepshadow.h"
+#define LIST_PAYLOAD ShadowNode
+#define LIST_ENDING_ID SHADOW_OPAQUE_ID
 #include "shaders/lists/insert.glsl"
 #include "shaders/shared/linear_id.glsl"
 #include "shaders/shared/view_block.glsl"
@@ -10,13 +12,24 @@
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ShadowPassParams params;
 };
-layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+// Of the surface that ends a cell's list.
+float opaqueDepthOf(uint cell) {
+  float opaque = NOTHING_OPAQUE;
+#if LIST_PASS == LIST_PASS_SPINLOCK
+  uint node = listHeads[cell];
+  for (uint walked = 0u; node != 0u && walked < LIST_WALK_LIMIT; ++walked) {
+    if (linkKey(node).y == SHADOW_OPAQUE_ID) opaque = uintBitsToFloat(linkKey(node).x);
+    node = linkNext(node);
+  }
+#endif
+  return opaque;
+}
 
 void main() {
   uint cell = linearId();
   if (cell >= uint(view.size.x * view.size.y)) return;
   ivec2 texel = ivec2(int(cell) % view.size.x, int(cell) / view.size.x);
-  float opaque = texelFetch(opaqueDepth, texel, 0).r;
+  float opaque = opaqueDepthOf(uint(view.size.z) + cell);
   vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
   bool orthographic = view.halfExtent.z != 0.0;
   vec3 origin = (view.worldFromView * vec4(orthographic ? vec3(plane, 0.0) : vec3(0.0), 1.0)).xyz;

@@ -16,6 +16,6 @@ void main() {
     vec3 tau = min(-log(max(pass, 1e-30)) * wayThrough(), SHADOW_OPAQUE_TAU);
     uint object = uint(draws[vDraw].indices.z);
     ShadowNode node = ShadowNode(packHalf2x16(tau.rg), packHalf2x16(vec2(tau.b, 0.0)) | object << 16);
-    listStore(uint(view.size.z + texel.y * view.size.x + texel.x), depth, fragmentId(), node);
+    listStore(uint(texel.y * view.size.x + texel.x), depth, fragmentId(), node);
   }
 }

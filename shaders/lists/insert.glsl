@@ -1,6 +1,6 @@
 // listStore(cell, depth, id, payload) puts a node into the list of a cell, in the way that C++ chose (LIST_PASS).
 // Define LIST_PAYLOAD before including this: the type of what a node carries, a scalar or a struct of them; without it
-// listStore has no such argument. listWants(cell) says whether nodes of a cell are built at this time; those of other
+// listStore has no such argument. Define LIST_ENDING_ID, and spin locks keep no nodes behind one that has it. listWants(cell) says whether nodes of a cell are built at this time; those of other
 // cells cost nothing.
 // Linked strategies bound every loop, and what a bound stops goes to the cell's overflow list, which the gather
 // takes with the others: nothing is lost.
@@ -101,13 +101,22 @@ bool listLink(uint cell, uint node, uvec2 key, out uint tries) {
       uint previous = 0u;
       uint current = head;
       uint walked = 0u;
-      while (current != 0u && walked < LIST_WALK_LIMIT && listBefore(linkKey(current), key)) {
+      bool ended = false;
+      while (current != 0u && !ended && walked < LIST_WALK_LIMIT && listBefore(linkKey(current), key)) {
         previous = current;
+#ifdef LIST_ENDING_ID
+        ended = linkKey(current).y == LIST_ENDING_ID;
+#endif
         current = linkNext(current);
         ++walked;
       }
+#ifdef LIST_ENDING_ID
+      if (key.y == LIST_ENDING_ID) current = 0u;
+#endif
       uint unlocked = head;
-      if (walked < LIST_WALK_LIMIT) {
+      if (ended) {
+        placed = true;
+      } else if (walked < LIST_WALK_LIMIT) {
         setLinkNext(node, current);
         if (previous != 0u) setLinkNext(previous, node);
         else unlocked = node;

@@ -73,5 +73,7 @@ SHARED_END
 #define SHADOW_GREY 0x40000000u
 #define SHADOW_KNOTS 0x3fffffffu  // the mask of their count
 
-// Linked lists, for comparisons: ids of smoke's nodes, whose words are the end of a stretch and what it takes, as floats.
+// Linked lists, for comparisons: ids of smoke's nodes, whose words are the end of a stretch and what it takes, as floats;
+// and that of opaque surfaces.
 #define SHADOW_SMOKE_IDS 0xffffff00u
+#define SHADOW_OPAQUE_ID 0xfffffeffu

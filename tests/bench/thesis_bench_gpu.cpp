@@ -2,8 +2,9 @@
 // lights, no shadows), one deep shadow map (256 to 2048 texels a side, a spot on a flat surface), and both (5
 // to 25 lights of 512 x 512 texels, here with smoke). The first and the last stand in the hall of
 // demos/make_demo_scene, or in any other glTF file; its lights are left out. Each is drawn as Sfumato does,
-// and as the thesis does: lists that stay linked, sorted under spin locks, and lookups that walk them from
-// the head; the smoke of a texel is then one node, as there, or several, which are nearer to the truth.
+// and as the thesis does: lists that stay linked, sorted under spin locks, opaque surfaces in those of the
+// shadow maps, and lookups that walk them from the head; the smoke of a texel is then one node, as there, or
+// several, which are nearer to the truth.
 // Prints milliseconds, the medians of some frames drawn in turn, and their ratios, by the wall clock and, of
 // frames, by the processor; with an .svg file, plots them.
 //   thesis_bench SCENE.gltf [FRAMES [PLOT.svg [TEST]]]
