@@ -207,7 +207,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
   }
   frame.statistics.shadows = shadows.lights();
   frame.statistics.shadowMaps = figuresOf(shadows);
-  if (shadows.linkedNodes() > 0) linkedNodes_ = shadows.linkedNodes();
+  linkedNodes_ = std::max(linkedNodes_, shadows.linkedNodes());
   frame.statistics.cutWalks += shadows.cutMarches();
   frame.statistics.triangles = scene_.geometry().triangles();
   return frame;

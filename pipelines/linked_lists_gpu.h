@@ -25,7 +25,7 @@ class LinkedListsPipeline : public Pipeline {
                const FrameOptions& options = {}) override;
 
  private:
-  size_t linkedNodes_ = 0;  // of the last frame, where lists stay linked: how large the next pool is
+  size_t linkedNodes_ = 0;  // of frames whose lists stayed linked, at most: how large the next pool is
 };
 
 }  // namespace sfumato::pipelines

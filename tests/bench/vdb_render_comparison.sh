@@ -50,7 +50,9 @@ theirs() {
     -scatter "$scatter,$scatter,$scatter" -absorb "$absorb,$absorb,$absorb"
 }
 ours() {
-  clocked "$1" "$sfumato" render "$work/sun.gltf" --res "$resolution" --quality "$2" -o "$work/$2.exr" --stats "$work/$2.json"
+  local render=("$sfumato" render "$work/sun.gltf" --res "$resolution" --quality "$2" -o "$work/$2.exr")
+  clocked "$1" "${render[@]}"
+  "${render[@]}" --stats "$work/$2.json" >"$work/log" 2>&1 # apart: counting takes time
   python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["frame"]["seconds"][0])' "$work/$2.json" >>"$1.frame"
 }
 
