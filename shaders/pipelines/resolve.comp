@@ -19,8 +19,6 @@
 #include "shaders/pipelines/smoke_blocks.glsl"
 #endif
 
-const float FINISHED = 3e38;
-
 layout(std430, binding = STORAGE_RAYS) buffer Rays {
   RayState rays[];  // of those that are walked
 };
@@ -32,7 +30,7 @@ void main() {
   if (walked >= uint(params.options.w)) return;
   bool first = params.options.x != 0;
   float depth = first ? view.depthRange.x : rays[walked].depth;
-  if (depth >= FINISHED) return;
+  if (depth >= RAY_FINISHED) return;
   uint number = rayNumber(walked);
   RayPlace place = rayPlace(number);
   ListRun surfaces = listRun(listOfPixel(view, place.pixel));
@@ -150,6 +148,6 @@ void main() {
   rayLookups[number] = first ? counted : rayLookups[number] + counted;
 #endif
   keepSeen(number, radiance, throughput);
-  rays[walked] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : FINISHED, throughput.r, throughput.g,
+  rays[walked] = RayState(radiance.r, radiance.g, radiance.b, walking ? depth : RAY_FINISHED, throughput.r, throughput.g,
                           throughput.b, passed);
 }

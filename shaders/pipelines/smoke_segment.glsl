@@ -12,16 +12,14 @@ struct Walker {
   bool ended;
 };
 
-const float FINISHED = 3e38;
-
 Walker walkerOf(RayState state) {
   return Walker(vec3(state.radianceR, state.radianceG, state.radianceB),
                 vec3(state.throughputR, state.throughputG, state.throughputB), state.depth, state.surfaces,
-                state.depth >= FINISHED);
+                state.depth >= RAY_FINISHED);
 }
 
 RayState stateOf(Walker walker) {
-  return RayState(walker.radiance.r, walker.radiance.g, walker.radiance.b, walker.ended ? FINISHED : walker.depth,
+  return RayState(walker.radiance.r, walker.radiance.g, walker.radiance.b, walker.ended ? RAY_FINISHED : walker.depth,
                   walker.throughput.r, walker.throughput.g, walker.throughput.b, walker.layers);
 }
 

@@ -12,7 +12,7 @@ struct RayState {
   float radianceR;
   float radianceG;
   float radianceB;
-  float depth;      // how far the ray has been walked; 3e38: to its end
+  float depth;      // how far the ray has been walked; RAY_FINISHED: to its end
   float throughputR;
   float throughputG;
   float throughputB;
@@ -63,6 +63,7 @@ SHARED_END
 #define NOTHING_SEEN 3e38
 #define MAX_SAMPLES 4
 #define SMOKE_ENDLESS 3e38
+#define RAY_FINISHED 3e38
 
 // Loop iterations after which a ray stops and waits for the next dispatch.
 #define RESOLVE_WORK_LIMIT 20000
