@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/error.h"
 #include "base/size_text.h"

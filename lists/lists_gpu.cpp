@@ -268,8 +268,8 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
     reserveNodes(device, statistics.predicted);
   }
   if (options_.observer) options_.observer->allocates(device);
-  bool sorted = false;
   const bool nothing = !linked() && counted.counters.total == 0;
+  bool sorted = nothing;
   const Stored stored = nothing    ? Stored::All
                         : linked() ? link(device, window, draw, counted, sorted)
                                    : scatter(device, window, draw);
@@ -284,7 +284,7 @@ size_t Lists::buildPrefix(gl::Device& device, Window window, const Draw& draw, b
     useStrategy(linked() ? Strategy::Count : Strategy::Append);
     return buildPrefix(device, window, draw, wholly, true, statistics);
   }
-  if (!sorted && !nothing) sort(device, window.cells, counted);
+  if (!sorted) sort(device, window.cells, counted);
 
   builtCells_ = window.cells;
   builtNodes_ = counted.counters.total;

@@ -18,9 +18,9 @@ class LinkedListsPipeline : public Pipeline {
                const FrameOptions& options) override;
   // Draws one frame, tile by tile (pipelines/tiles.h): each pixel is the same bits whatever the device can
   // hold at a time, but where a ray through smoke stands for pixels of two tiles. Bytes: 12 a pixel on the
-  // host; of a tile 40 a sample for the G-buffer, 32 a ray, 52 a translucent fragment and those of its light
-  // lists; and the deep shadow maps. Throws Memory when the maps, or the lists of a single pixel, are over
-  // the device's limits.
+  // host; of a tile 40 a sample for the G-buffer, 12 to 60 a ray (resolve_gpu.h), 52 a translucent fragment
+  // and those of its light lists; and the deep shadow maps. Throws Memory when the maps, or the lists of a
+  // single pixel, are over the device's limits.
   Frame render(const scene::Camera& camera, int width, int height, const Quality& quality,
                const FrameOptions& options = {}) override;
 

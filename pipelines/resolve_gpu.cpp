@@ -172,12 +172,10 @@ class Resolver {
 }  // namespace
 
 gl::ShaderDefines resolveDefines(const SceneGpu& scene, const Quality& quality, const WalkOptions& options) {
-  gl::ShaderDefines defines = marchDefines(scene, quality, options);
-  if (options.takesBlocks()) defines.emplace_back("SMOKE_BLOCKS", "1");
+  gl::ShaderDefines defines = gl::joined(passingDefines(options), scene.lightingDefines(quality));
   if (options.passes(scene)) defines.emplace_back("PASSING_RAYS", "1");
   if (quality.walkedSmokeNodes > 0) defines.emplace_back("WALK_LISTS", "1");
   if (options.deep) defines.emplace_back("DEEP", "1");
-  if (options.transmittance) defines.emplace_back("TRANSMITTANCE", "1");
   return gl::joined(defines, occlusionDefines(scene.occlusionOf(quality)));
 }
 

@@ -12,6 +12,7 @@
 layout(std140, binding = UNIFORM_PASS) uniform Pass {
   ShadowPassParams params;
 };
+
 // Of the surface that ends a cell's list.
 float opaqueDepthOf(uint cell) {
   float opaque = NOTHING_OPAQUE;

@@ -13,7 +13,7 @@ void main() {
   vec3 tau = vec3(SHADOW_OPAQUE_TAU);
   uint id = SHADOW_OPAQUE_ID;
 #else
-  vec3 tau = min(-log(max(passThrough(base, transmission()), 1e-30)) * wayThrough(), SHADOW_OPAQUE_TAU);
+  vec3 tau = surfaceTau(base);
   uint id = fragmentId();
 #endif
   if (base.a > 0.0) {

@@ -11,9 +11,8 @@ void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);
   float depth = fragmentDepth();
   vec4 base = baseColour();
-  vec3 pass = passThrough(base, transmission());
+  vec3 tau = surfaceTau(base);
   if (base.a > 0.0 && depth < texelFetch(opaqueDepth, texel, 0).r) {
-    vec3 tau = min(-log(max(pass, 1e-30)) * wayThrough(), SHADOW_OPAQUE_TAU);
     uint object = uint(draws[vDraw].indices.z);
     ShadowNode node = ShadowNode(packHalf2x16(tau.rg), packHalf2x16(vec2(tau.b, 0.0)) | object << 16);
     listStore(uint(texel.y * view.size.x + texel.x), depth, fragmentId(), node);

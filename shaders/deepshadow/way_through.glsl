@@ -1,4 +1,5 @@
 #include "shaders/scene/surface.glsl"
+#include "shaders/shared/deepshadow.h"
 
 // How much longer the way through a thin shell is than its thickness, as far as the material counts it.
 float wayThrough() {
@@ -8,4 +9,9 @@ float wayThrough() {
   vec3 n = shadingNormal(material, normalize(vNormalWorld));
   float cosine = max(abs(dot(n, mat3(view.worldFromView) * along)), 0.05);
   return 1.0 + material.shadow.x * (1.0 / cosine - 1.0);
+}
+
+// Optical depth of a surface of that base colour.
+vec3 surfaceTau(vec4 base) {
+  return min(-log(max(passThrough(base, transmission()), 1e-30)) * wayThrough(), SHADOW_OPAQUE_TAU);
 }

@@ -1,7 +1,7 @@
 // listStore(cell, depth, id, payload) puts a node into the list of a cell, in the way that C++ chose (LIST_PASS).
 // Define LIST_PAYLOAD before including this: the type of what a node carries, a scalar or a struct of them; without it
-// listStore has no such argument. Define LIST_ENDING_ID, and spin locks keep no nodes behind one that has it. listWants(cell) says whether nodes of a cell are built at this time; those of other
-// cells cost nothing.
+// listStore has no such argument. Define LIST_ENDING_ID, and spin locks keep no nodes behind one that has it.
+// listWants(cell) says whether nodes of a cell are built at this time; those of other cells cost nothing.
 // Linked strategies bound every loop, and what a bound stops goes to the cell's overflow list, which the gather
 // takes with the others: nothing is lost.
 #include "shaders/lists/banks.glsl"

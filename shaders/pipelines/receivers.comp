@@ -108,7 +108,7 @@ void main() {
   bool open = false;
   vec2 opaque = NOTHING;
   vec2 listed = NOTHING;
-  // Pixels that are split are put off: few cells have any, and some drivers skip loops only.
+  // Pixels that are split are put off: few cells have any, and some drivers run for every pixel what any may need.
   ivec2 size = high - low;
   uint split = 0u;
   for (int i = 0; i < size.x * size.y; ++i) {

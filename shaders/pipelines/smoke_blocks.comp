@@ -21,7 +21,7 @@ layout(std430, binding = STORAGE_SMOKE_PARENTS) readonly buffer Parents {
 #endif
 #ifdef COUNT_LOOKUPS
 layout(std430, binding = STORAGE_LOOKUPS) buffer BlockLookups {
-  uvec4 blockLookups[];  // see resolve.comp
+  uvec4 blockLookups[];  // see rays.glsl
 };
 #endif
 layout(binding = TEXTURE_OPAQUE_DEPTH) uniform pixelSampler opaqueDepth;
