@@ -193,7 +193,7 @@ void InterlacedMaps::draw(gl::Device& device, const InterlacedInputs& inputs) co
                       .depthTest = true,
                       .depthCompare = gl::Compare::Greater,  // of what falls with the distance
                       .depthClamp = true});
-    inputs.casters.opaque();
+    if (inputs.casters.opaque) inputs.casters.opaque();
     if (inputs.casters.listed) inputs.casters.listed();
   }
 }

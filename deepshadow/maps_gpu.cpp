@@ -20,7 +20,7 @@ namespace {
 // Parts of a buffer that are bound alone start at multiples of 256 bytes.
 constexpr size_t unitBytes = sizeof(shared::ShadowKnot);  // of the pool of knots
 constexpr size_t unitAlignment = 256 / unitBytes;
-constexpr size_t knotsInUnit = 2;  // at most
+constexpr size_t knotsInUnit = 4;  // at most
 constexpr size_t texelAlignment = 64;
 constexpr auto texelsLabel = "deep shadow texels";
 constexpr auto poolLabel = "deep shadow knots";
@@ -35,7 +35,7 @@ size_t squared(int side) {
 
 // Those of surfaces.
 size_t texelsOf(const FaceProjection& face) {
-  return squared(face.side);
+  return squared(face.surfaceSide());
 }
 
 size_t allTexelsOf(const FaceProjection& face) {
@@ -179,7 +179,7 @@ class Builder {
     forWindows(squared(face.smokeSide), consume);
   }
 
-  void useFace(const FaceProjection& face) { useFace(face, face.side); }
+  void useFace(const FaceProjection& face) { useFace(face, face.surfaceSide()); }
 
   void useFace(const FaceProjection& face, int side) {
     shared::ViewParams view = faceView(face, side);
@@ -191,16 +191,18 @@ class Builder {
   // Opaque depth of a face, kept for the passes that follow.
   void drawOpaque(const FaceProjection& face) {
     const gl::Profiler::Scope time(device_.profiler(), "opaque depth");
-    if (depth_.size().x != face.side)
-      depth_ = gl::Texture(device_, "shadow opaque depth",
-                           {.format = gl::Format::R32F, .size = {face.side, face.side, 1}});
+    const int side = face.surfaceSide();
+    if (depth_.size().x != side)
+      depth_ =
+          gl::Texture(device_, "shadow opaque depth", {.format = gl::Format::R32F, .size = {side, side, 1}});
     const gl::Texture* colour = &depth_;
     const gl::Framebuffer target({&colour, 1}, nullptr);
     target.clearColour(0, glm::vec4(static_cast<float>(NOTHING_OPAQUE)));
+    if (!inputs_.casters.opaque) return;
     useFace(face);
     gl::setDrawState({.program = &opaque_,
                       .target = &target,
-                      .viewport = {0, 0, face.side, face.side},
+                      .viewport = {0, 0, side, side},
                       .depthClamp = true,
                       .blend = gl::Blend::Minimum});
     inputs_.casters.opaque();
@@ -241,7 +243,7 @@ class Builder {
            .depthClamp = true});
       casters();
     };
-    draw(inputs_.casters.opaque, {{"OPAQUE", "1"}});
+    if (inputs_.casters.opaque) draw(inputs_.casters.opaque, {{"OPAQUE", "1"}});
     if (inputs_.casters.listed) draw(inputs_.casters.listed, {});
   }
 
@@ -287,7 +289,7 @@ class Builder {
   shared::ShadowCounters write(const FaceWindow& window, int which, size_t room) {
     const gl::Profiler::Scope time(device_.profiler(), window.ofSmoke ? "smoke" : "knots");
     counters_.clear();
-    useFace(window.face, window.ofSmoke ? window.face.smokeSide : window.face.side);
+    useFace(window.face, window.ofSmoke ? window.face.smokeSide : window.face.surfaceSide());
     useWindow(window, which);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
     if (window.ofSmoke)
@@ -394,7 +396,7 @@ size_t countUnits(gl::Device& device, const MapInputs& inputs, double error,
       reduced.side = std::min(face.side, faceSide(face.side / reduction));
       reduced.smokeSide = std::min(face.smokeSide, std::max(face.smokeSide / reduction, leastSide));
       const Builder::Units counted = builder.count(reduced);
-      units += static_cast<double>(counted.surfaces) * ratio(face.side, reduced.side) +
+      units += static_cast<double>(counted.surfaces) * ratio(face.surfaceSide(), reduced.surfaceSide()) +
                static_cast<double>(counted.smoke) * ratio(face.smokeSide, reduced.smokeSide);
     }
   }
@@ -448,7 +450,7 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
     lowered_ = true;
   }
   texelsView_ = gl::BufferTexture(device, texels_, gl::BufferFormat::RGB32UI);
-  knotsView_ = gl::BufferTexture(device, knots_, gl::BufferFormat::RGBA32F);
+  knotsView_ = gl::BufferTexture(device, knots_, gl::BufferFormat::RGBA32UI);
 }
 
 // The faces of all lights, and where their texels stand. Returns how many there are.
@@ -471,6 +473,7 @@ size_t Maps::arrange(const MapInputs& inputs) {
     map.firstTexel = texels;
     const int smokeSide = smokeSideOf(inputs, i);
     for (FaceProjection& face : projections_.back()) {
+      face.casters = inputs.casters.any() || inputs.linkedSmokeNodes > 0;
       face.smokeSide = smokeSide;
       face.smoke = smokePart(face, boxes);
       map.texels += texelsOf(face);
@@ -557,7 +560,7 @@ size_t Maps::knotsAtMost(size_t light) const {
 ReadMap Maps::read(size_t light) const {
   const LightMap& map = lightMaps_[light];
   std::vector<shared::ShadowTexel> texels(map.texels + map.smokeTexels);
-  std::vector<shared::ShadowKnot> units(map.units);
+  std::vector<glm::uvec4> units(map.units);
   texels_.read(std::as_writable_bytes(std::span(texels)), map.firstTexel * sizeof(shared::ShadowTexel));
   knots_.read(std::as_writable_bytes(std::span(units)), map.firstUnit * unitBytes);
   ReadMap result;

@@ -29,11 +29,13 @@ namespace sfumato::deepshadow {
 // Draw calls for everything that casts shadows, with the draw state that is current; programs start with
 // shaders/scene/surface.vert.
 struct Casters {
-  std::function<void()> opaque;
+  std::function<void()> opaque;  // empty: none
   std::function<void()> listed;  // translucent ones, opaque ones that do not shadow themselves; empty: none
   bool once = false;             // whether there are objects that shadow once
   bool notSelf = false;          // whether there are objects that do not shadow themselves
   gl::ShaderDefines defines;     // of the programs that they are drawn with
+
+  bool any() const { return opaque || listed; }
 };
 
 struct MapInputs {
@@ -58,7 +60,7 @@ struct LightMap {
   int faces = 0;
   int resolution = 0;  // texels a side; a face of a cube has half
   size_t firstTexel = 0;
-  size_t texels = 0;       // of surfaces
+  size_t texels = 0;       // of surfaces; one of a face where none cast shadows
   size_t smokeTexels = 0;  // of each face behind its others
   size_t smokeKnots = 0;   // at most
   size_t knotBytes = 0;
@@ -71,10 +73,10 @@ class Maps {
  public:
   // Builds the maps that the plan asks for, or, where they are more than the budget, of a coarser plan that
   // fits (map_plan.h): what they take is counted beforehand, at an eighth of the resolution. Costs 12 bytes a
-  // texel and 8 a knot of a texel whose smoke or surfaces are grey, 16 a knot of others; while it builds, 8
-  // bytes a texel of a window and 16 a translucent surface in it, more with some strategies
-  // (lists/lists_gpu.h). Throws Memory when no plan fits that the budget allows, or one texel's lists are
-  // over theirs.
+  // texel and 8 a knot of a texel whose smoke or surfaces are grey, 16 a knot of others, of smoke half of
+  // these where its bound allows that; while it builds, 8 bytes a texel of a window and 16 a translucent
+  // surface in it, more with some strategies (lists/lists_gpu.h). Throws Memory when no plan fits that the
+  // budget allows, or one texel's lists are over theirs.
   Maps(gl::Device& device, const MapInputs& inputs);
 
   const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights

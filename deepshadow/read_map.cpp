@@ -1,6 +1,7 @@
 #include "deepshadow/read_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace sfumato::deepshadow {
@@ -81,34 +82,58 @@ void append(Knots surfaces, Around smoke, std::vector<ShadowKnot>& joined) {
   }
 }
 
+bool isGrey(const shared::ShadowTexel& texel) {
+  return (texel.count & SHADOW_GREY) != 0;
+}
+
+ShadowKnot longKnot(const shared::ShadowTexel& texel, std::span<const glm::uvec4> units, size_t number) {
+  if (!isGrey(texel)) return std::bit_cast<ShadowKnot>(units[number]);
+  const auto pair = std::bit_cast<glm::vec4>(units[number / 2]);
+  const glm::vec2 knot = number % 2 == 0 ? glm::vec2(pair.x, pair.y) : glm::vec2(pair.z, pair.w);
+  return {knot.x, knot.y, knot.y, knot.y};
+}
+
+// As shaders/deepshadow/short_knot.glsl has it.
+ShadowKnot shortKnot(const shared::ShadowTexel& texel, std::span<const glm::uvec4> units, size_t number) {
+  const auto word = [&](size_t i) { return units[i / 4][static_cast<int>(i % 4)]; };
+  const auto tau = [](uint32_t bits) {
+    const auto root = static_cast<float>(static_cast<double>(bits & SHADOW_TAU_MASK) / SHADOW_SHORT_TAUS);
+    return root * root * static_cast<float>(SHADOW_SHORT_TAU);
+  };
+  const uint32_t first = word(isGrey(texel) ? number : 2 * number);
+  const uint32_t startBits = texel.count >> SHADOW_START_BIT & SHADOW_START_MASK;
+  const double start = texel.opaqueDepth * (startBits / SHADOW_STARTS);
+  const double steps = first >> SHADOW_TAU_BITS;
+  const auto depth = static_cast<float>(start + steps * ((texel.opaqueDepth - start) / SHADOW_SHORT_DEPTHS));
+  if (isGrey(texel)) return {depth, tau(first), tau(first), tau(first)};
+  const uint32_t second = word(2 * number + 1);
+  return {depth, tau(first), tau(second >> SHADOW_TAU_BITS), tau(second)};
+}
+
 }  // namespace
 
-ReadMap decoded(std::span<const shared::ShadowTexel> texels, Knots units, size_t firstUnit) {
+ReadMap decoded(std::span<const shared::ShadowTexel> texels, std::span<const glm::uvec4> units,
+                size_t firstUnit) {
   ReadMap result;
   for (const shared::ShadowTexel& texel : texels) {
-    const size_t count = texel.count & SHADOW_KNOTS;
-    const size_t first = texel.first - firstUnit;
+    const bool isShort = (texel.count & SHADOW_SHORT) != 0;
+    const size_t count = texel.count & (isShort ? SHADOW_SHORT_KNOTS : SHADOW_KNOTS);
+    const auto stored = units.subspan(texel.first - firstUnit);
     result.texels.push_back({result.knots.size(), count, texel.opaqueDepth});
-    for (size_t i = 0; i < count; ++i) {
-      if ((texel.count & SHADOW_GREY) == 0) {
-        result.knots.push_back(units[first + i]);
-      } else {
-        const ShadowKnot& pair = units[first + i / 2];
-        const float depth = i % 2 == 0 ? pair.depth : pair.tauG;
-        const float tau = i % 2 == 0 ? pair.tauR : pair.tauB;
-        result.knots.push_back({depth, tau, tau, tau});
-      }
-    }
+    for (size_t i = 0; i < count; ++i)
+      result.knots.push_back(isShort ? shortKnot(texel, stored, i) : longKnot(texel, stored, i));
   }
   return result;
 }
 
 void appendJoined(const FaceProjection& face, const ReadMap& surfaces, const ReadMap& smoke,
                   ReadMap& joined) {
-  for (size_t i = 0; i < surfaces.texels.size(); ++i) {
+  const size_t texels = static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
+  for (size_t i = 0; i < texels; ++i) {
     const size_t first = joined.knots.size();
-    append(surfaces.knotsOf(i), smokeAround(face, smoke, i), joined.knots);
-    joined.texels.push_back({first, joined.knots.size() - first, surfaces.texels[i].opaqueDepth});
+    const size_t own = face.casters ? i : 0;
+    append(surfaces.knotsOf(own), smokeAround(face, smoke, i), joined.knots);
+    joined.texels.push_back({first, joined.knots.size() - first, surfaces.texels[own].opaqueDepth});
   }
 }
 

@@ -28,7 +28,7 @@ struct ReadMap {
 };
 
 // The functions of texels as they are stored; `units` are the pool's from number `firstUnit` on.
-ReadMap decoded(std::span<const shared::ShadowTexel> texels, std::span<const shared::ShadowKnot> units,
+ReadMap decoded(std::span<const shared::ShadowTexel> texels, std::span<const glm::uvec4> units,
                 size_t firstUnit);
 
 // Appends a face whose texels have surfaces, and smoke of texels of its own, interpolated bilinearly in their

@@ -55,7 +55,8 @@ int smokeSide(const FaceProjection& face, const dmat4& worldFromUnit, double wid
 }
 
 glm::dvec4 smokePart(const FaceProjection& face, std::span<const dmat4> boxes) {
-  const dvec2 scale = double(face.side) / (2.0 * face.halfExtent);
+  const int side = face.surfaceSide();
+  const dvec2 scale = double(side) / (2.0 * face.halfExtent);
   dvec2 low(infinity);
   dvec2 high(-infinity);
   for (const dmat4& worldFromUnit : boxes) {
@@ -69,12 +70,12 @@ glm::dvec4 smokePart(const FaceProjection& face, std::span<const dmat4> boxes) {
       boxHigh = glm::max(boxHigh, xy);
     }
     if (!face.orthographic && before == 0) continue;
-    if (!face.orthographic && before < 8) return {0, 0, face.side, face.side};
+    if (!face.orthographic && before < 8) return {0, 0, side, side};
     low = glm::min(low, boxLow);
     high = glm::max(high, boxHigh);
   }
-  const double margin = 1 + static_cast<double>(face.side) / std::max(face.smokeSide, 1);
-  return {low * scale + face.side / 2.0 - margin, high * scale + face.side / 2.0 + margin};
+  const double margin = 1 + static_cast<double>(side) / std::max(face.smokeSide, 1);
+  return {low * scale + side / 2.0 - margin, high * scale + side / 2.0 + margin};
 }
 
 FaceProjection directionalFace(const dvec3& direction, int side, std::span<const dvec3> receivers,
@@ -124,9 +125,10 @@ std::vector<FaceProjection> cubeFaces(const dvec3& position, int side) {
 shared::ShadowFace faceData(const FaceProjection& face, size_t firstTexel) {
   shared::ShadowFace data{};
   data.faceFromWorld = glm::inverse(face.worldFromFace);
-  const glm::dvec2 scale = static_cast<double>(face.side) / (2.0 * face.halfExtent);
-  data.projection = glm::vec4(glm::vec2(scale), glm::vec2(face.side / 2.0));
-  data.texels = {static_cast<int>(firstTexel), face.side, face.orthographic ? 0 : 1, face.smokeSide};
+  const int side = face.surfaceSide();
+  const glm::dvec2 scale = static_cast<double>(side) / (2.0 * face.halfExtent);
+  data.projection = glm::vec4(glm::vec2(scale), glm::vec2(side / 2.0));
+  data.texels = {static_cast<int>(firstTexel), side, face.orthographic ? 0 : 1, face.smokeSide};
   data.smoke = face.smoke;
   return data;
 }

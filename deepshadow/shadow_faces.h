@@ -16,8 +16,11 @@ struct FaceProjection {
   bool orthographic = false;
   glm::dvec2 halfExtent{1.0};  // of the map at depth 1 (perspective) or anywhere (orthographic), m
   int side = 0;                // texels
+  bool casters = true;         // whether surfaces cast shadows; where none do, one texel stands for all
   int smokeSide = 0;           // texels of smoke; 0: none
   glm::dvec4 smoke{0};         // where they hold any: see ShadowFace
+
+  int surfaceSide() const { return casters ? side : 1; }  // texels of surfaces that are stored
 };
 
 // The side of a face for a map of `resolution` texels: a multiple of 16, at least 32, so that the faces of a

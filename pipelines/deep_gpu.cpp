@@ -195,8 +195,11 @@ std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t li
         base::ExitCode::Usage,
         "deep shadow map of light {}: it reaches nothing that is seen and has no map: choose another light",
         light);
-  const size_t atMost = (maps.knotsAtMost(light) + map.texels) * sizeof(image::DeepSample) +
-                        map.texels * sizeof(std::vector<int>);
+  size_t texels = 0;
+  for (const deepshadow::FaceProjection& face : maps.faces(light))
+    texels += static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
+  const size_t atMost =
+      (maps.knotsAtMost(light) + texels) * sizeof(image::DeepSample) + texels * sizeof(std::vector<int>);
   if (atMost > limits.sampleBytes) failOverMemory(atMost, limits.sampleBytes);
   const deepshadow::ReadMap read = maps.read(light);
 

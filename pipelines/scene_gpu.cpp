@@ -81,6 +81,9 @@ gl::ShaderDefines SceneGpu::lightingDefines(const Quality& quality) const {
   if (geometry_.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
   if (!geometry_.has(Layer::ShadowLists) && quality.walkedSmokeNodes == 0)
     defines.emplace_back("OPAQUE_SHADOWS", "1");
+  if (!geometry_.has(Layer::ShadowLists) && !geometry_.has(Layer::ShadowDepth) &&
+      quality.walkedSmokeNodes == 0)
+    defines.emplace_back("NO_CASTERS", "1");
   if (scene_.ambient != glm::dvec3(0)) defines.emplace_back("AMBIENT", "1");
   if (volumes_.empty()) return defines;
   defines.emplace_back("SMOKE", "1");
@@ -117,17 +120,23 @@ std::optional<AmbientOcclusion> SceneGpu::drawOcclusion(const FrameView& view, c
                                         quality.ambientOcclusion});
 }
 
+deepshadow::Casters castersOf(const GeometryGpu& geometry) {
+  const auto draws = [&](Layer layer) {
+    return geometry.has(layer) ? [&geometry, layer] { geometry.draw(layer, false); }
+                               : std::function<void()>();
+  };
+  return {.opaque = draws(Layer::ShadowDepth),
+          .listed = draws(Layer::ShadowLists),
+          .once = geometry.hasShadowOnce(),
+          .notSelf = geometry.hasNotSelf(),
+          .defines = geometry.defines()};
+}
+
 ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& quality) const {
   scene::Seen all;
   all.add(scene::visibleParts(mediaBoxes_, view.camera, static_cast<double>(view.width) / view.height));
   all.add(view.seen);
-  deepshadow::Casters casters{.opaque = [this] { geometry_.draw(Layer::ShadowDepth, false); },
-                              .once = geometry_.hasShadowOnce(),
-                              .notSelf = geometry_.hasNotSelf(),
-                              .defines = geometry_.defines()};
-  if (geometry_.has(Layer::ShadowLists))
-    casters.listed = [this] { geometry_.draw(Layer::ShadowLists, false); };
-  return {casters, all.points, scene::boundingPoints(scene_, mediaBoxes_),
+  return {castersOf(geometry_), all.points, scene::boundingPoints(scene_, mediaBoxes_),
           shadowResolutions(scene_.lights, all.parts, view.camera, view.width, view.height, quality),
           deepshadow::MapBudget{.bytes = quality.shadowMemory,
                                 .lowerResolution = !quality.exactShadowResolution,

@@ -47,6 +47,9 @@ struct ShadowInputs {
   deepshadow::MapBudget budget;
 };
 
+// What of the geometry casts shadows; draws it, as long as it lives.
+deepshadow::Casters castersOf(const GeometryGpu& geometry);
+
 class SceneGpu {
  public:
   // Uploads what the scene holds. The scene must outlive it.

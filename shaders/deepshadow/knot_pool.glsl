@@ -13,7 +13,7 @@ layout(std430, binding = STORAGE_SHADOW_TEXELS) buffer Texels {
   ShadowTexel texels[];
 };
 layout(std430, binding = STORAGE_SHADOW_KNOTS) buffer Knots {
-  vec2 halves[];  // of the pool's units
+  uint words[];  // four are a unit of the pool
 };
 layout(std430, binding = STORAGE_COUNTERS) coherent buffer Counting {
   ShadowCounters counters;
@@ -22,7 +22,7 @@ layout(std430, binding = STORAGE_COUNTERS) coherent buffer Counting {
 const uint NO_ROOM = 0xffffffffu;     // a count
 const uint UNFINISHED = 0xfffffffeu;  // likewise
 
-uint place = 0u;   // of the next knot: a half
+uint place = 0u;   // of the next word
 bool grey = true;  // so that a knot takes half a unit
 
 // Of the invocation, in the face.
@@ -46,7 +46,7 @@ bool isWritten() {
 // Takes so many units of the pool. False, and NO_ROOM for the texel, when there are not as many.
 bool takeUnits(uint count, out uint first) {
   first = count != 0u ? atomicAdd(counters.units, count) : 0u;
-  bool fits = count == 0u || first + count <= uint(halves.length()) / 2u;
+  bool fits = count == 0u || first + count <= uint(words.length()) / 4u;
   if (!fits) {
     atomicAdd(counters.unplaced, count);
     texels[numberOfCell()].count = NO_ROOM;
@@ -54,11 +54,16 @@ bool takeUnits(uint count, out uint first) {
   return fits;
 }
 
-void writeKnot(float depth, vec3 tau) {
-  halves[place] = vec2(depth, tau.r);
+void writeWord(uint word) {
+  words[place] = word;
   ++place;
+}
+
+void writeKnot(float depth, vec3 tau) {
+  writeWord(floatBitsToUint(depth));
+  writeWord(floatBitsToUint(tau.r));
   if (!grey) {
-    halves[place] = tau.gb;
-    ++place;
+    writeWord(floatBitsToUint(tau.g));
+    writeWord(floatBitsToUint(tau.b));
   }
 }

@@ -1,12 +1,13 @@
 // How much of a light gets to a point. Every function here reads maps that deepshadow/maps_gpu built. VOLUME_COUNT is
 // defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel of surfaces, OPAQUE_SHADOWS
-// when no surface lets light through.
+// when no surface lets light through, NO_CASTERS when none casts a shadow.
 #include "shaders/deepshadow/faces.glsl"
+#include "shaders/deepshadow/short_knot.glsl"
 
 // As buffer textures, because all maps together may be larger than one storage block.
 layout(binding = TEXTURE_SHADOW_TEXELS) uniform usamplerBuffer shadowTexels;  // ShadowTexel
 #ifndef WALK_LISTS
-layout(binding = TEXTURE_SHADOW_KNOTS) uniform samplerBuffer shadowKnots;     // units: see ShadowTexel
+layout(binding = TEXTURE_SHADOW_KNOTS) uniform usamplerBuffer shadowKnots;    // units: see ShadowTexel
 #endif
 
 ShadowTexel shadowTexel(uint number) {
@@ -14,27 +15,31 @@ ShadowTexel shadowTexel(uint number) {
   return ShadowTexel(words.x, words.y, uintBitsToFloat(words.z));
 }
 
+#ifndef WALK_LISTS
+vec4 knotUnit(uint number) {
+  return uintBitsToFloat(texelFetch(shadowKnots, int(number)));
+}
+#endif
+
 uint knotCount(ShadowTexel texel) {
-  return texel.count & SHADOW_KNOTS;
+  return texel.count & ((texel.count & SHADOW_SHORT) != 0u ? SHADOW_SHORT_KNOTS : SHADOW_KNOTS);
 }
 
 #ifdef WALK_LISTS
 #include "shaders/deepshadow/walk.glsl"
 #else
 
-// Optical depth from the light to `depth` in a texel that has knots: the last unit that begins at or before it is found
-// by bisection; tau is linear from the last knot there to the next one. `last`: or behind that.
-vec3 opticalDepthAt(ShadowTexel texel, float depth, float last) {
-  bool grey = (texel.count & SHADOW_GREY) != 0u;
-  uint units = grey ? (knotCount(texel) + 1u) >> 1 : knotCount(texel);
-  uint low = depth < last ? 0u : units - 1u;
-  uint high = units;  // units [0, low) begin at or before depth, units [high, units) behind it
-  vec4 before = vec4(0.0);  // unit low - 1
-  vec4 after = vec4(0.0);   // unit high
+// How many of a texel's units begin at or before a depth, at least `first`, found by bisection: the last of them and the next
+// one, where there are such. `key`: the largest first word of a unit that does.
+uint unitsBefore(ShadowTexel texel, uint units, uint first, uint key, out uvec4 before, out uvec4 after) {
+  uint low = first;
+  uint high = units;   // units [0, low) begin at or before depth, units [high, units) behind it
+  before = uvec4(0u);  // unit low - 1
+  after = uvec4(0u);   // unit high
   while (low < high) {
     uint middle = (low + high) >> 1;
-    vec4 unit = texelFetch(shadowKnots, int(texel.first + middle));
-    if (unit.x <= depth) {
+    uvec4 unit = texelFetch(shadowKnots, int(texel.first + middle));
+    if (unit.x <= key) {
       low = middle + 1u;
       before = unit;
     } else {
@@ -42,8 +47,25 @@ vec3 opticalDepthAt(ShadowTexel texel, float depth, float last) {
       after = unit;
     }
   }
-  if (low == 0u) return vec3(0.0);
-  if (low == units) after = vec4(NOTHING_OPAQUE, grey ? before.www : before.yzw);
+  return low;
+}
+
+// Floats above 0 have the order of their bits.
+uint keyOf(float depth) {
+  return floatBitsToUint(max(depth, 1e-30));
+}
+
+// Optical depth from the light to `depth` in a texel of surfaces that has knots: linear from the last knot before it to the
+// next one.
+vec3 opticalDepthAt(ShadowTexel texel, float depth) {
+  bool grey = (texel.count & SHADOW_GREY) != 0u;
+  uint units = grey ? (knotCount(texel) + 1u) >> 1 : knotCount(texel);
+  uvec4 wordsBefore, wordsAfter;
+  uint begun = unitsBefore(texel, units, 0u, keyOf(depth), wordsBefore, wordsAfter);
+  if (begun == 0u) return vec3(0.0);
+  vec4 before = uintBitsToFloat(wordsBefore);
+  vec4 after = uintBitsToFloat(wordsAfter);
+  if (begun == units) after = vec4(NOTHING_OPAQUE, grey ? before.www : before.yzw);
   if (grey) {
     bool second = before.z <= depth;
     after = second ? after.xyyy : before.zwww;
@@ -52,6 +74,56 @@ vec3 opticalDepthAt(ShadowTexel texel, float depth, float last) {
   return mix(before.yzw, after.yzw, (depth - before.x) / (after.x - before.x));
 }
 
+#ifdef VOLUME_COUNT
+// The same in a texel of smoke.
+Extinction smokeOpticalDepthAt(ShadowTexel texel, float depth) {
+  bool isShort = (texel.count & SHADOW_SHORT) != 0u;
+  float last = texel.opaqueDepth;
+  uint inUnit = smokeKnotsInUnit(isShort);
+  uint units = (knotCount(texel) + inUnit - 1u) / inUnit;
+  uint first = depth < last ? 0u : units - 1u;
+  uint key = keyOf(depth);
+  if (isShort) {
+    float start = shortStart(texel.count, last);
+    depth = clamp((depth - start) * shortSteps(start, last), 0.0, SHADOW_SHORT_DEPTHS);
+    key = shortKey(depth);
+  }
+  uvec4 unit, next;
+  uint begun = unitsBefore(texel, units, first, key, unit, next);
+  if (begun == 0u) return Extinction(0.0);
+  bool isLast = begun == units;
+#ifdef COLOURED_SMOKE
+  SmokeKnot before = isShort ? shortKnot(unit.xy) : longKnot(unit);
+  SmokeKnot after = isShort ? shortKnot(unit.zw) : longKnot(next);
+  bool second = isShort && unit.z <= key;
+  if (second) before = after;
+  if (second && !isLast) after = shortKnot(next.xy);
+  if (!isShort && isLast) after = before;
+#else
+  SmokeKnot before, after;
+  if (isShort) {
+    uint wordBefore = unit.x;
+    uint wordAfter = unit.y;
+    for (int i = 1; i < 4; ++i) {
+      if (unit[i] <= key) {
+        wordBefore = unit[i];
+        wordAfter = i < 3 ? unit[i + 1] : isLast ? unit[i] : next.x;
+      }
+    }
+    before = shortKnot(wordBefore);
+    after = shortKnot(wordAfter);
+  } else {
+    bool second = uintBitsToFloat(unit.z) <= depth;
+    before = longKnot(second ? unit.zw : unit.xy);
+    after = longKnot(second ? next.xy : unit.zw);
+    if (second && isLast) after = before;
+  }
+#endif
+  float run = after.depth - before.depth;
+  return mix(before.tau, after.tau, run > 0.0 ? (depth - before.depth) / run : 0.0);
+}
+#endif
+
 #endif
 
 // Through surfaces that let light pass; `ownTau` is taken out.
@@ -59,7 +131,7 @@ vec3 runTransmittance(ShadowTexel texel, float depth, vec3 ownTau) {
 #ifdef OPAQUE_SHADOWS
   return vec3(1.0);
 #else
-  return knotCount(texel) == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel, depth, NOTHING_OPAQUE), 0.0));
+  return knotCount(texel) == 0u ? vec3(1.0) : exp(min(ownTau - opticalDepthAt(texel, depth), 0.0));
 #endif
 }
 
@@ -70,16 +142,16 @@ vec3 takeOwnSteps(inout ShadowTexel texel, float depth, float slack, uint object
 #ifdef SHADOW_OBJECTS
   uint number = texel.first + knotCount(texel);
   vec4 listed = vec4(0.0);
-  if ((texel.count & SHADOW_OWN_STEPS) != 0u) listed = texelFetch(shadowKnots, int(number));
+  if ((texel.count & SHADOW_OWN_STEPS) != 0u) listed = knotUnit(number);
   while (listed.y != 0.0 && listed.x <= depth) {
     if (uint(listed.y) == object && listed.x <= depth - slack) {
-      int before = int(texel.first) + int(listed.z);
-      ownTau += texelFetch(shadowKnots, before + 1).yzw - texelFetch(shadowKnots, before).yzw;
+      uint before = texel.first + uint(listed.z);
+      ownTau += knotUnit(before + 1u).yzw - knotUnit(before).yzw;
     } else if (uint(listed.y) != object && listed.w != 0.0) {
       texel.opaqueDepth = min(texel.opaqueDepth, listed.x);
     }
     ++number;
-    listed = texelFetch(shadowKnots, int(number));
+    listed = knotUnit(number);
   }
 #endif
   return ownTau;
@@ -113,17 +185,19 @@ uint smokeTexelNumber(ShadowFace face, ivec2 texel) {
 
 // Through the smoke before a point: the optical depths of the four texels around it, bilinearly.
 vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
-  vec3 tau = vec3(0.0);
 #if defined(VOLUME_COUNT) && !defined(WALK_LISTS)
+  Extinction tau = Extinction(0.0);
   Taps taps = tapsAround(smokePlace(face, place), 2);
   for (int i = 0; i < 4; ++i) {
     ivec2 offset = ivec2(i & 1, i >> 1);
     ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
     if (knotCount(texel) != 0u)
-      tau += taps.x[offset.x] * taps.y[offset.y] * opticalDepthAt(texel, depth, texel.opaqueDepth);
+      tau += taps.x[offset.x] * taps.y[offset.y] * smokeOpticalDepthAt(texel, depth);
   }
+  return vec3(exp(-tau));
+#else
+  return vec3(1.0);
 #endif
-  return exp(-tau);
 }
 
 // Of a point in smoke, in the view space of the face that sees it; `side`, of texels of surfaces: see Taps. Those of smoke are
@@ -132,7 +206,9 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   float depth = -pFace.z;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(depth, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;
-#ifdef NEAREST_SMOKE_SHADOWS
+#if defined(NO_CASTERS)
+  return smokeTransmittance(face, place, depth);
+#elif defined(NEAREST_SMOKE_SHADOWS)
   return texelTransmittance(texelNumber(face, ivec2(floor(place))), depth) * smokeTransmittance(face, place, depth);
 #else
   Taps taps = tapsAround(place, side);

@@ -1,11 +1,13 @@
 // Writes the knots of a face's texels of smoke, marched from the light to the farthest opaque depth that anything which
 // reads them is before. Smoke comes in order of depth by itself: it needs no list. Its knots are kept while they are
-// counted; what is more than a few is marched again.
+// counted; what is more than a few is marched again. They are short knots where these are exact enough.
 #include "shaders/deepshadow/knot_pool.glsl"
+#include "shaders/deepshadow/short_knot.glsl"
 #include "shaders/deepshadow/smoke_march.glsl"
 
 const uint KEPT = 24u;
 SmokeKnot kept[KEPT];
+const float SHORT_SHARE = 0.1;  // of the error's bound, what short knots may take of it
 
 // Of what is lit through this texel or its neighbours, that is in a square of two texels of smoke and in what filters reach
 // beyond it; `enough` or more where that is as far as anybody wants to know.
@@ -25,6 +27,11 @@ float farthestOpaque(ivec2 texel, float enough) {
   return farthest;
 }
 
+// What of the bound is left to short knots; 0 where it is too small for them.
+float shortShare() {
+  return params.march.y * SHORT_SHARE > SHORT_TAU_ERROR ? SHORT_SHARE : 0.0;
+}
+
 SmokeRay smokeRay(ivec2 texel) {
   vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
   bool orthographic = view.halfExtent.z != 0.0;
@@ -37,7 +44,7 @@ SmokeRay smokeRay(ivec2 texel) {
   vec2 range = ray.media.rangeOfAll;
   ray.end = range.x < range.y ? min(range.y, farthestOpaque(texel, range.y)) : range.y;
   ray.metresPerDepth = length(perDepth);
-  ray.bound = params.march.y;
+  ray.bound = params.march.y * (1.0 - shortShare());
   float tooMany = range.x < ray.end ? stepsAtMost(ray.media) / MAX_STEPS : 0.0;
   if (tooMany > 1.0) {
     atomicAdd(counters.boundHit, 1u);
@@ -46,8 +53,30 @@ SmokeRay smokeRay(ivec2 texel) {
   return ray;
 }
 
+// By how much the transmittance falls per unit of depth between two knots, at most.
+float steepness(SmokeKnot before, SmokeKnot after) {
+  Extinction rise = after.tau - before.tau;
+  return after.depth > before.depth ? maxComponent(exp(-before.tau) * rise) / (after.depth - before.depth) : 0.0;
+}
+
+bool isShort = false;
+float start = 0.0;  // of short knots
+float steps = 0.0;  // likewise
+
 void writeKnot(SmokeKnot knot) {
-  writeKnot(knot.depth, vec3(knot.tau));
+  uint depth = min(uint(max((knot.depth - start) * steps, 0.0) + 0.5), uint(SHADOW_SHORT_DEPTHS));
+#ifdef COLOURED_SMOKE
+  uvec2 both = shortWords(depth, knot.tau);
+  writeWord(isShort ? both.x : floatBitsToUint(knot.depth));
+  writeWord(isShort ? both.y : floatBitsToUint(knot.tau.r));
+  if (!isShort) {
+    writeWord(floatBitsToUint(knot.tau.g));
+    writeWord(floatBitsToUint(knot.tau.b));
+  }
+#else
+  writeWord(isShort ? shortWord(depth, knot.tau) : floatBitsToUint(knot.depth));
+  if (!isShort) writeWord(floatBitsToUint(knot.tau));
+#endif
 }
 
 void main() {
@@ -56,10 +85,14 @@ void main() {
   SmokeMarch march = startOfMarch(ray);
   SmokeMarch rest = march;  // after the knots that are kept
   SmokeKnot knot;
+  SmokeKnot last = march.segment;
+  float steepest = 0.0;
   uint count = 0u;
   while (goesOn(march, ray)) {
     if (marchStep(ray, march, knot)) {
       if (count < KEPT) kept[count] = knot;
+      if (count != 0u) steepest = max(steepest, steepness(last, knot));
+      last = knot;
       ++count;
       if (count == KEPT) rest = march;
     }
@@ -67,14 +100,23 @@ void main() {
 #ifdef COLOURED_SMOKE
   grey = false;
 #endif
+  uint flags = grey ? SHADOW_GREY : 0u;
+  if (count != 0u && shortShare() > 0.0) {
+    uint startBits = uint(min(kept[0].depth / last.depth * SHADOW_STARTS, SHADOW_STARTS - 1.0)) << SHADOW_START_BIT;
+    start = shortStart(startBits, last.depth);
+    steps = shortSteps(start, last.depth);
+    isShort = maxComponent(last.tau) <= SHADOW_SHORT_TAU && count <= SHADOW_SHORT_KNOTS &&
+              0.5 * steepest / steps + SHORT_TAU_ERROR <= shortShare() * params.march.y;
+    if (isShort) flags |= SHADOW_SHORT | startBits;
+  }
+  uint inUnit = smokeKnotsInUnit(isShort);
   uint first;
-  if (!takeUnits(grey ? (count + 1u) / 2u : count, first)) return;
-  texels[numberOfCell()] = ShadowTexel(uint(params.units.x) + first, count | (grey ? SHADOW_GREY : 0u), march.segment.depth);
+  if (!takeUnits((count + inUnit - 1u) / inUnit, first)) return;
+  texels[numberOfCell()] = ShadowTexel(uint(params.units.x) + first, count | flags, last.depth);
 
-  place = 2u * first;
+  place = 4u * first;
   for (uint i = 0u; i < min(count, KEPT); ++i) writeKnot(kept[i]);
   // A march that gave other knots this time could not write beyond its own.
-  SmokeKnot last = march.segment;
   uint left = count > KEPT ? count - KEPT : 0u;
   while (left != 0u && goesOn(rest, ray)) {
     if (marchStep(ray, rest, knot)) {
@@ -83,5 +125,6 @@ void main() {
     }
   }
   for (; left != 0u; --left) writeKnot(last);
-  if (grey && (count & 1u) != 0u) writeKnot(NOTHING_OPAQUE, vec3(last.tau));
+  if (!isShort) last.depth = NOTHING_OPAQUE;
+  for (; count % inUnit != 0u; ++count) writeKnot(last);
 }

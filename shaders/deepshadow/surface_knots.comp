@@ -48,20 +48,21 @@ ShadowNode surfaceNode(uint number) {
 
 // What goes on in the next dispatch; the last two knots are free for it, as a surface is still to come.
 void keepState(uint lastUnit) {
-  uint half_ = 2u * lastUnit - 2u;
-  halves[half_] = uintBitsToFloat(uvec2(surface, place));
-  halves[half_ + 1u] = uintBitsToFloat(uvec2(ownStep, searched));
-  halves[half_ + 2u] = vec2(0.0, surfaceTau.r);
-  halves[half_ + 3u] = surfaceTau.gb;
+  uint word = 4u * lastUnit - 4u;
+  words[word] = surface;
+  words[word + 1u] = place;
+  words[word + 2u] = ownStep;
+  words[word + 3u] = searched;
+  for (int i = 0; i < 3; ++i) words[word + 4u + uint(i)] = floatBitsToUint(surfaceTau[i]);
 }
 
 void takeState(uint lastUnit) {
-  uint half_ = 2u * lastUnit - 2u;
-  surface = floatBitsToUint(halves[half_].x);
-  place = floatBitsToUint(halves[half_].y);
-  ownStep = floatBitsToUint(halves[half_ + 1u].x);
-  searched = floatBitsToUint(halves[half_ + 1u].y);
-  surfaceTau = vec3(halves[half_ + 2u].y, halves[half_ + 3u]);
+  uint word = 4u * lastUnit - 4u;
+  surface = words[word];
+  place = words[word + 1u];
+  ownStep = words[word + 2u];
+  searched = words[word + 3u];
+  for (int i = 0; i < 3; ++i) surfaceTau[i] = uintBitsToFloat(words[word + 4u + uint(i)]);
 }
 
 uint objectOf(ShadowNode node) {
@@ -89,8 +90,8 @@ void writeSurfaces(float opaque) {
 #ifdef SHADOW_NOT_SELF_OBJECTS
     if ((objectOf(node) & uint(SHADOW_NOT_SELF)) != 0u) {
       bool isOpaque = min(min(drop.r, drop.g), drop.b) >= SHADOW_DARK_TAU;
-      halves[2u * ownStep] = vec2(at, float(objectOf(node)));
-      halves[2u * ownStep + 1u] = vec2(float(place / 2u - firstUnit), isOpaque ? 1.0 : 0.0);
+      vec4 listed = vec4(at, objectOf(node), place / 4u - firstUnit, isOpaque ? 1.0 : 0.0);
+      for (int i = 0; i < 4; ++i) words[4u * ownStep + uint(i)] = floatBitsToUint(listed[i]);
       ++ownStep;
     }
 #endif
@@ -134,15 +135,14 @@ void main() {
   uint flags = (grey ? SHADOW_GREY : 0u) | (ownSteps != 0u ? SHADOW_OWN_STEPS : 0u);
   texels[number] = ShadowTexel(uint(params.units.x) + first, count | flags, opaque);
 
-  place = 2u * first;
+  place = 4u * first;
   firstUnit = first;
   ownStep = first + count;
   if (continuing) takeState(first + count - 1u);
   writeSurfaces(opaque);
 #ifdef SHADOW_NOT_SELF_OBJECTS
   if (ownSteps != 0u && !stopped) {
-    halves[2u * ownStep] = vec2(0.0);
-    halves[2u * ownStep + 1u] = vec2(0.0);
+    for (uint i = 0u; i < 4u; ++i) words[4u * ownStep + i] = 0u;
   }
 #endif
   if (stopped) {

@@ -3,7 +3,7 @@
 layout(binding = TEXTURE_SHADOW_KNOTS) uniform usamplerBuffer shadowLinks;  // ListLink
 layout(binding = TEXTURE_SHADOW_NODES) uniform usamplerBuffer shadowNodes;  // ShadowNode
 
-vec3 opticalDepthAt(ShadowTexel texel, float depth, float last) {
+vec3 opticalDepthAt(ShadowTexel texel, float depth) {
   vec3 tau = vec3(0.0);
   uint node = texel.first;
   while (node != 0u) {

@@ -16,13 +16,14 @@ struct ShadowFace {
 // The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots. Those of
 // surfaces and those of smoke are multiplied.
 // The pool's unit is 16 bytes: one knot of a coloured texel, two (depth, tau) of a grey one, whose odd last is followed
-// by one at NOTHING_OPAQUE.
+// by one at NOTHING_OPAQUE. Where that keeps the bound of their error, knots of smoke are short: a word of a grey one
+// (shaders/deepshadow/short_knot.glsl), two of a coloured one, the last repeated to the end of its unit.
 // Steps of objects that do not shadow themselves stand in the list once more, behind those knots, so that they can be
 // taken out again: as knots of (depth, object, number of the knot before the step, 1 where opaque), ended by one of
 // object 0.
 struct ShadowTexel {
   uint first;         // unit of the pool
-  uint count;         // knots; and SHADOW_GREY, SHADOW_OWN_STEPS
+  uint count;         // knots; and SHADOW_GREY, SHADOW_OWN_STEPS, SHADOW_SHORT
   float opaqueDepth;  // 3e38: nothing opaque; of smoke: depth of the last knot
 };
 
@@ -71,7 +72,18 @@ SHARED_END
 #define NOTHING_OPAQUE 3e38
 #define SHADOW_OWN_STEPS 0x80000000u  // its own steps follow; never of a grey texel
 #define SHADOW_GREY 0x40000000u
-#define SHADOW_KNOTS 0x3fffffffu  // the mask of their count
+#define SHADOW_SHORT 0x20000000u
+#define SHADOW_KNOTS 0x1fffffffu  // the mask of their count
+// Of short knots the count takes SHADOW_SHORT_KNOTS, and above it stands where their depths start, in parts of the last one's.
+#define SHADOW_SHORT_KNOTS 0x7fffu
+#define SHADOW_START_BIT 15
+#define SHADOW_START_MASK 0x3fffu
+#define SHADOW_STARTS 16384.0
+#define SHADOW_TAU_BITS 15            // of a channel: the square root of its optical depth
+#define SHADOW_TAU_MASK 0x7fffu
+#define SHADOW_SHORT_TAUS 32767.0
+#define SHADOW_SHORT_TAU 32.0         // the largest there is
+#define SHADOW_SHORT_DEPTHS 131071.0  // from the start to the last, above the bits of red's
 
 // Linked lists, for comparisons: ids of smoke's nodes, whose words are the end of a stretch and what it takes, as floats;
 // and that of opaque surfaces.

@@ -11,7 +11,7 @@
 
 #include "base/random.h"
 #include "gl/commands.h"
-#include "pipelines/geometry_gpu.h"
+#include "pipelines/scene_gpu.h"
 #include "scene/visible_hull.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
@@ -125,14 +125,9 @@ const std::vector<dvec3> hull = {{-4, -1, -4}, {4, 5, 4},   {-4, 5, 4},  {4, -1,
 
 class InterlacedMapsGpu : public tests::GpuTest {
  protected:
-  Casters castersOf(const pipelines::GeometryGpu& geometry) {
-    return {.opaque = [&] { geometry.draw(pipelines::Layer::ShadowDepth, false); },
-            .listed = [&] { geometry.draw(pipelines::Layer::ShadowLists, false); }};
-  }
-
   void build(const scene::Scene& scene, int resolution, InterlacedKind kind = InterlacedKind::Transmittance) {
     const pipelines::GeometryGpu geometry(device(), scene);
-    const Casters casters = castersOf(geometry);
+    const Casters casters = pipelines::castersOf(geometry);
     const std::vector<int> resolutions(scene.lights.size(), resolution);
     const std::vector<dvec3> castingPoints = scene::boundingPoints(scene, {});
     kind_ = kind;
@@ -175,7 +170,7 @@ class InterlacedMapsGpu : public tests::GpuTest {
 
   std::vector<dvec3> askDeep(const scene::Scene& scene, const Probes& probes, int resolution, int side) {
     const pipelines::GeometryGpu geometry(device(), scene);
-    const Casters casters = castersOf(geometry);
+    const Casters casters = pipelines::castersOf(geometry);
     const volumes::VolumesGpu noMedia(device(), {});
     const std::vector<dvec3> castingPoints = scene::boundingPoints(scene, {});
     const Maps maps(device(), {.lights = scene.lights,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "deepshadow/maps_gpu.h"
-#include "pipelines/geometry_gpu.h"
+#include "pipelines/scene_gpu.h"
 #include "scene/light_faces.h"
 #include "tests/gl/test_device.h"
 #include "tests/pipelines/known_scenes.h"
@@ -45,10 +45,7 @@ class MapsTest : public GpuTest {
   LightFunction build(const KnownScene& known, int resolution, double error, double stepVoxels = 0.25) {
     const pipelines::GeometryGpu geometry(device(), known.scene);
     const volumes::VolumesGpu media(device(), known.media);
-    const deepshadow::Casters casters{.opaque = [&] { geometry.draw(pipelines::Layer::ShadowDepth, false); },
-                                      .listed = [&] { geometry.draw(pipelines::Layer::ShadowLists, false); },
-                                      .once = geometry.hasShadowOnce(),
-                                      .notSelf = geometry.hasNotSelf()};
+    const deepshadow::Casters casters = pipelines::castersOf(geometry);
     const deepshadow::Maps maps(device(), {.lights = known.scene.lights,
                                            .casters = casters,
                                            .volumes = media,
