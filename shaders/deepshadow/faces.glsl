@@ -30,6 +30,11 @@ struct Taps {
   vec4 y;
 };
 
+// Where tap i of side x side is, from the first one. Sides are 1, 2 and 4.
+ivec2 tapOffset(int i, int side) {
+  return ivec2(i & (side - 1), i >> (side >> 1));
+}
+
 Taps tapsAround(vec2 place, int side) {
   Taps taps = Taps(ivec2(floor(place)), vec4(1.0), vec4(1.0));
   if (side == 1) return taps;

@@ -28,7 +28,7 @@ bool grey = true;  // so that a knot takes half a unit
 // Of the invocation, in the face.
 ivec2 texelOfCell() {
   uint cell = uint(params.cells.x) + linearId();
-  return ivec2(int(cell) % view.size.x, int(cell) / view.size.x);
+  return placeInRows(cell, view.size.x);
 }
 
 // Among the texels that are bound.

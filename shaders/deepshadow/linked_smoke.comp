@@ -29,7 +29,7 @@ float opaqueDepthOf(uint cell) {
 void main() {
   uint cell = linearId();
   if (cell >= uint(view.size.x * view.size.y)) return;
-  ivec2 texel = ivec2(int(cell) % view.size.x, int(cell) / view.size.x);
+  ivec2 texel = placeInRows(cell, view.size.x);
   float opaque = opaqueDepthOf(uint(view.size.z) + cell);
   vec2 plane = ((vec2(texel) + 0.5) / vec2(view.size.xy) * 2.0 - 1.0) * view.halfExtent.xy;
   bool orthographic = view.halfExtent.z != 0.0;

@@ -214,7 +214,7 @@ vec3 shadowInSmoke(ShadowFace face, vec3 pFace, int side) {
   Taps taps = tapsAround(place, side);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = ivec2(i % side, i / side);
+    ivec2 offset = tapOffset(i, side);
     sum += taps.x[offset.x] * taps.y[offset.y] * texelTransmittance(texelNumber(face, taps.first + offset), depth);
   }
   return sum * smokeTransmittance(face, place, depth);
@@ -254,7 +254,7 @@ vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, 
   float told = 0.0;
   vec3 doubtful = vec3(0.0);
   for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = ivec2(i % side, i / side);
+    ivec2 offset = tapOffset(i, side);
     float share = taps.x[offset.x] * taps.y[offset.y];
     ivec2 at = taps.first + offset;
     vec2 xy = (vec2(at) + 0.5 - face.projection.zw) / face.projection.xy;

@@ -28,8 +28,9 @@ void order(inout int rankA, inout uint idA, inout uint fromA, inout int rankB, i
 
 void main() {
   uint pieces = max(uint(sorting.more.x) / uint(LIST_SORT_SIZE), 1u);
-  ListRun run = sortedRun(linearId() / pieces);
-  uint offset = linearId() % pieces * uint(LIST_SORT_SIZE);
+  ivec2 pieceRun = placeInRows(linearId(), int(pieces));
+  ListRun run = sortedRun(uint(pieceRun.y));
+  uint offset = uint(pieceRun.x) * uint(LIST_SORT_SIZE);
   if (offset >= run.count) return;
   uint first = run.first + offset;
   uint count = min(run.count - offset, uint(LIST_SORT_SIZE));

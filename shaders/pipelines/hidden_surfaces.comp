@@ -18,7 +18,7 @@ void main() {
   if (number >= uint(view.window.z * view.window.w)) return;
   ListRun run = listRun(number);
   if (run.count == 0u) return;
-  ivec2 texel = view.window.xy - view.tile.xy + ivec2(int(number) % view.window.z, int(number) / view.window.z);
+  ivec2 texel = view.window.xy - view.tile.xy + placeInRows(number, view.window.z);
   float opaque = 0.0;
   for (int i = 0; i < SAMPLES; ++i) opaque = max(opaque, texelFetch(opaqueDepth, texel, i).r);
   uint left = run.count;

@@ -119,7 +119,7 @@ void main() {
   if (number >= uint(params.options.w)) return;
   Walker walker = walkerOf(rays[number]);
   if (walker.ended) return;
-  ivec2 pixel = ivec2(int(number) % view.size.x, int(number) / view.size.x);
+  ivec2 pixel = placeInRows(number, view.size.x);
   Translucent surface = translucentAt(pixel);
   Background background = surface.seen ? refracted(pixel, surface) : backgroundAt(pixel, 0.0);
   PixelRay ray = pixelRay(imagePlane(view, vec2(pixel) + 0.5), 1.0);

@@ -33,7 +33,7 @@ ivec2 bent(uint number, ivec2 pixel) {
 void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
-  ivec2 pixel = ivec2(int(number) % view.size.x, int(number) / view.size.x);
+  ivec2 pixel = placeInRows(number, view.size.x);
   ivec2 place = pixel;
 #if defined(BENT) && defined(LAST)
   place = bent(number, pixel);

@@ -2,6 +2,7 @@
 #include "shaders/pipelines/camera_ray.glsl"
 #include "shaders/pipelines/pixel_groups.glsl"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/division.glsl"
 #include "shaders/shared/resolve_block.glsl"
 #include "shaders/shared/view_block.glsl"
 
@@ -46,6 +47,6 @@ RayPlace rayPlace(uint ray) {
     split = true;
   }
 #endif
-  ivec2 place = ivec2(int(pixel) % view.window.z, int(pixel) / view.window.z);
+  ivec2 place = placeInRows(pixel, view.window.z);
   return RayPlace(view.window.xy + place, number, split);
 }

@@ -102,7 +102,7 @@ void main() {
   ivec2 cells = (window.xy + window.zw + LIGHT_CELL_SIDE - 1) / LIGHT_CELL_SIDE - first;
   uint number = linearId();
   if (number >= uint(cells.x * cells.y)) return;
-  ivec2 cell = first + ivec2(int(number) % cells.x, int(number) / cells.x);
+  ivec2 cell = first + placeInRows(number, cells.x);
   ivec2 low = max(cell * LIGHT_CELL_SIDE, window.xy);
   ivec2 high = min((cell + 1) * LIGHT_CELL_SIDE, window.xy + window.zw);
   bool open = false;
@@ -112,14 +112,14 @@ void main() {
   ivec2 size = high - low;
   uint split = 0u;
   for (int i = 0; i < size.x * size.y; ++i) {
-    ivec2 pixel = low + ivec2(i % size.x, i / size.x);
+    ivec2 pixel = low + placeInRows(uint(i), size.x);
     if (isSplit(listOfPixel(view, pixel))) split |= 1u << i;
     else addDepth(texelFetch(opaqueDepth, pixel - view.tile.xy, 0).r, opaque, open);
     listed = joined(listed, listedRange(pixel));
   }
   while (split != 0u) {
     int i = findLSB(split);
-    addSamples(low + ivec2(i % size.x, i / size.x), opaque, open);
+    addSamples(low + placeInRows(uint(i), size.x), opaque, open);
     split &= split - 1u;
   }
   vec2 range = joined(opaque, listed);

@@ -22,7 +22,7 @@ ivec2 refracted(ivec2 pixel, float depth, PackedSurface surface) {
 void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
-  ivec2 pixel = params.area.xy + ivec2(int(number) % params.area.z, int(number) / params.area.z);
+  ivec2 pixel = params.area.xy + placeInRows(number, params.area.z);
   number = uint(pixel.y * view.size.x + pixel.x);
 #ifdef TO_CAMERA
   float start = view.depthRange.x;

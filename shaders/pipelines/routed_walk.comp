@@ -30,7 +30,7 @@ bool isBefore(uvec2 a, uvec2 b) {
 void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
-  ivec2 place = ivec2(int(number) % view.tile.z, int(number) / view.tile.z);
+  ivec2 place = placeInRows(number, view.tile.z);
   ivec2 pixel = place + view.tile.xy;
   int rayNumber = pixel.y * view.size.x + pixel.x;
   uint count = uint(texelFetch(counts, pixel, 0).r);

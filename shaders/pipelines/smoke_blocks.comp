@@ -35,7 +35,7 @@ struct Pixels {
 Pixels pixelsOf(ivec2 first, int side, float smokeEnd) {
   Pixels pixels = Pixels(0.0, false);
   for (int i = 0; i < side * side; ++i) {
-    ivec2 pixel = first + ivec2(i % side, i / side);
+    ivec2 pixel = first + placeInRows(uint(i), side);
     if (!hasList(view, pixel)) continue;
     uint list = listOfPixel(view, pixel);
     int samples = isSplit(list) ? SAMPLES : 1;
@@ -103,13 +103,12 @@ void main() {
   int side = params.blocks.x;
   ivec4 ofWindow = blocksOfWindow();
 #ifdef REFINED
-  int pixel = int(number) % (side * side);
-  int parent = int(parents[int(number) / (side * side)]);
-  ivec2 first = side * (ofWindow.xy + ivec2(parent % ofWindow.z, parent / ofWindow.z)) + ivec2(pixel % side, pixel / side);
+  ivec2 pixelParent = placeInRows(number, side * side);
+  ivec2 first = side * (ofWindow.xy + placeInRows(parents[pixelParent.y], ofWindow.z)) + placeInRows(uint(pixelParent.x), side);
   uint place = uint(params.blocks.w) + number;
   side = 1;
 #else
-  ivec2 first = side * (ofWindow.xy + ivec2(int(number) % ofWindow.z, int(number) / ofWindow.z));
+  ivec2 first = side * (ofWindow.xy + placeInRows(number, ofWindow.z));
   uint place = number;
 #endif
   PixelRay ray = pixelRay(imagePlane(view, vec2(first) + 0.5 * float(side)), float(side));

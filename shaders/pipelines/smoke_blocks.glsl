@@ -1,5 +1,6 @@
 // The smoke as blocks of pixels saw it (smoke_blocks.comp, SmokeBlock), for the pixels in them and around them: what a pixel
 // sees up to a depth is interpolated from what the blocks around it saw up to there.
+#include "shaders/shared/division.glsl"
 #include "shaders/shared/resolve_block.glsl"
 #include "shaders/shared/view_block.glsl"
 
@@ -9,8 +10,8 @@ layout(binding = TEXTURE_SMOKE_KNOTS) uniform usamplerBuffer smokeKnots;
 // Blocks of the window: the first one's place, and how many across and down.
 ivec4 blocksOfWindow() {
   int side = params.blocks.x;
-  ivec2 first = view.window.xy / side;
-  return ivec4(first, (view.window.xy + view.window.zw + side - 1) / side - first);
+  ivec2 first = quotient(view.window.xy, side);
+  return ivec4(first, quotient(view.window.xy + view.window.zw + side - 1, side) - first);
 }
 
 // From the viewer to a depth.

@@ -32,7 +32,7 @@ void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
   ivec4 ofWindow = blocksOfWindow();
-  ivec2 own = ivec2(int(number) % ofWindow.z, int(number) / ofWindow.z);
+  ivec2 own = placeInRows(number, ofWindow.z);
   float reach = texelFetch(smokeBlocks, 3 * int(number)).w;
   bool alike = true;
   for (int i = 0; i < 9 && alike; ++i) {
