@@ -84,7 +84,6 @@ gl::ShaderDefines SceneGpu::lightingDefines(const Quality& quality) const {
   if (!geometry_.has(Layer::ShadowLists) && !geometry_.has(Layer::ShadowDepth) &&
       quality.walkedSmokeNodes == 0)
     defines.emplace_back("NO_CASTERS", "1");
-  if (quality.surfaceShadows == ShadowFilter::Nearest) defines.emplace_back("NEAREST_SURFACE_SHADOWS", "1");
   if (scene_.ambient != glm::dvec3(0)) defines.emplace_back("AMBIENT", "1");
   if (volumes_.empty()) return defines;
   defines.emplace_back("SMOKE", "1");

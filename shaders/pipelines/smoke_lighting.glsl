@@ -64,6 +64,13 @@ float distancePassed(PixelRay ray, vec3 miss, float depth) {
   return width / mean;
 }
 
+// Steps that are close to a lamp.
+struct Nearby {
+  uint light;
+  uint steps;       // a bit each
+  vec4 passing[3];  // of its light, to each
+};
+
 // Mean over step k of what a lamp close by adds to it. Its irradiance peaks where the ray passes it, so that the step is
 // cut at equal angles as the lamp sees them (Kulla and Fajardo 2012).
 vec3 turnedFromNearby(LightData light, Steps steps, int k, PixelRay ray, vec3 passing) {
@@ -87,8 +94,8 @@ vec3 turnedFromNearby(LightData light, Steps steps, int k, PixelRay ray, vec3 pa
   return sum * (last - first) / (float(CUTS) * 2.0 * halfLength * away);
 }
 
-// Radiance that a light adds to the ray over the steps between its front and back depth.
-vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float back) {
+// Radiance that a light adds to the ray over the steps between its front and back depth, but for those close to it.
+vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float back, inout Nearby nearby) {
   LightData light = lights[number];
   bool shadowed = light.indices.y >= 0;
   bool cube = light.indices.z == 6;
@@ -101,8 +108,6 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
     perDepth = mat3(face.faceFromWorld) * ray.perDepth;
   }
   vec3 sum = vec3(0.0);
-  uint nearby = 0u;       // steps close to the light
-  vec4 passingNearby[3];  // of these
   for (int k = 0; k < steps.count; ++k) {
     float depth = steps.depth[k];
     if (depth < front || depth > back) continue;
@@ -126,19 +131,13 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
       float stepLength = steps.size[k] * ray.metresPerDepth;
       vec3 distances = light.position.xyz - p;
       if (light.indices.x != LIGHT_DIRECTIONAL && dot(distances, distances) < 16.0 * stepLength * stepLength) {
-        nearby |= 1u << k;
-        for (int c = 0; c < 3; ++c) passingNearby[c][k] = passing[c];
+        nearby.light = number;
+        nearby.steps |= 1u << k;
+        for (int c = 0; c < 3; ++c) nearby.passing[c][k] = passing[c];
       } else {
         sum += seenOf(steps, k) * added * turned(steps, k, -toLight, ray.towardsViewer, passing);
       }
     }
-  }
-  // Apart, because some drivers run what few steps need for all of them.
-  while (nearby != 0u) {
-    int k = findLSB(nearby);
-    nearby &= nearby - 1u;
-    vec3 passing = vec3(passingNearby[0][k], passingNearby[1][k], passingNearby[2][k]);
-    sum += seenOf(steps, k) * turnedFromNearby(light, steps, k, ray, passing);
   }
   work += uint(8 * STEPS);
   return sum;
@@ -147,13 +146,25 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
 vec3 scattered(Steps steps, PixelRay ray) {
   vec3 sum = steps.emitted;
   float farthest = steps.depth[steps.count - 1];
+  uint listed = min(lightsOf(ray), LIGHT_WALK_LIMIT);
   bool reached = true;
   uint walked = 0u;
-  while (reached && walked < min(lightsOf(ray), LIGHT_WALK_LIMIT)) {
-    ListedLight at = lightOf(ray, walked);
-    reached = at.front <= farthest;
-    if (reached) sum += scatteredFrom(at.light, steps, ray, at.front, at.back);
-    ++walked;
+  // Steps close to a lamp are put off until the lights around it are done, because some drivers run what few of them need for
+  // all.
+  while (reached && walked < listed) {
+    Nearby nearby = Nearby(0u, 0u, vec4[3](vec4(0.0), vec4(0.0), vec4(0.0)));
+    while (reached && walked < listed && nearby.steps == 0u) {
+      ListedLight at = lightOf(ray, walked);
+      reached = at.front <= farthest;
+      if (reached) sum += scatteredFrom(at.light, steps, ray, at.front, at.back, nearby);
+      ++walked;
+    }
+    while (nearby.steps != 0u) {
+      int k = findLSB(nearby.steps);
+      nearby.steps &= nearby.steps - 1u;
+      vec3 passing = vec3(nearby.passing[0][k], nearby.passing[1][k], nearby.passing[2][k]);
+      sum += seenOf(steps, k) * turnedFromNearby(lights[nearby.light], steps, k, ray, passing);
+    }
   }
   if (walked == LIGHT_WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
   return sum;
