@@ -568,7 +568,8 @@ ReadMap Maps::read(size_t light) const {
   for (const FaceProjection& face : projections_[light]) {
     const auto own = std::span(texels).subspan(first, texelsOf(face));
     const auto smoke = std::span(texels).subspan(first + texelsOf(face), squared(face.smokeSide));
-    appendJoined(face, decoded(own, units, map.firstUnit), decoded(smoke, units, map.firstUnit), result);
+    appendJoined(face, decoded(own, units, map.firstUnit, Knotted::Surfaces),
+                 decoded(smoke, units, map.firstUnit, Knotted::Smoke), result);
     first += allTexelsOf(face);
   }
   return result;

@@ -113,15 +113,22 @@ ShadowKnot shortKnot(const shared::ShadowTexel& texel, std::span<const glm::uvec
 }  // namespace
 
 ReadMap decoded(std::span<const shared::ShadowTexel> texels, std::span<const glm::uvec4> units,
-                size_t firstUnit) {
+                size_t firstUnit, Knotted what) {
   ReadMap result;
   for (const shared::ShadowTexel& texel : texels) {
     const bool isShort = (texel.count & SHADOW_SHORT) != 0;
     const size_t count = texel.count & (isShort ? SHADOW_SHORT_KNOTS : SHADOW_KNOTS);
     const auto stored = units.subspan(texel.first - firstUnit);
-    result.texels.push_back({result.knots.size(), count, texel.opaqueDepth});
-    for (size_t i = 0; i < count; ++i)
-      result.knots.push_back(isShort ? shortKnot(texel, stored, i) : longKnot(texel, stored, i));
+    const size_t first = result.knots.size();
+    ShadowKnot before{};
+    for (size_t i = 0; i < count; ++i) {
+      const ShadowKnot knot = isShort ? shortKnot(texel, stored, i) : longKnot(texel, stored, i);
+      if (what == Knotted::Surfaces)
+        result.knots.push_back({knot.depth, before.tauR, before.tauG, before.tauB});
+      result.knots.push_back(knot);
+      before = knot;
+    }
+    result.texels.push_back({first, result.knots.size() - first, texel.opaqueDepth});
   }
   return result;
 }

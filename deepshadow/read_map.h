@@ -27,9 +27,12 @@ struct ReadMap {
   }
 };
 
+// What the knots are of. The step of a surface is stored as one; here it is two of one depth.
+enum class Knotted { Surfaces, Smoke };
+
 // The functions of texels as they are stored; `units` are the pool's from number `firstUnit` on.
 ReadMap decoded(std::span<const shared::ShadowTexel> texels, std::span<const glm::uvec4> units,
-                size_t firstUnit);
+                size_t firstUnit, Knotted what);
 
 // Appends a face whose texels have surfaces, and smoke of texels of its own, interpolated bilinearly in their
 // middle: at each knot of one of them there is one.

@@ -55,27 +55,19 @@ uint keyOf(float depth) {
   return floatBitsToUint(max(depth, 1e-30));
 }
 
-// Optical depth from the light to `depth` in a texel of surfaces that has knots: linear from the last knot before it to the
-// next one.
+// Optical depth from the light to `depth` in a texel of surfaces that has knots: that of the last one before it.
 vec3 opticalDepthAt(ShadowTexel texel, float depth) {
   bool grey = (texel.count & SHADOW_GREY) != 0u;
   uint units = grey ? (knotCount(texel) + 1u) >> 1 : knotCount(texel);
-  uvec4 wordsBefore, wordsAfter;
-  uint begun = unitsBefore(texel, units, 0u, keyOf(depth), wordsBefore, wordsAfter);
-  if (begun == 0u) return vec3(0.0);
-  vec4 before = uintBitsToFloat(wordsBefore);
-  vec4 after = uintBitsToFloat(wordsAfter);
-  if (begun == units) after = vec4(NOTHING_OPAQUE, grey ? before.www : before.yzw);
-  if (grey) {
-    bool second = before.z <= depth;
-    after = second ? after.xyyy : before.zwww;
-    before = second ? before.zwww : before.xyyy;
-  }
-  return mix(before.yzw, after.yzw, (depth - before.x) / (after.x - before.x));
+  uvec4 words, next;
+  if (unitsBefore(texel, units, 0u, keyOf(depth), words, next) == 0u) return vec3(0.0);
+  vec4 unit = uintBitsToFloat(words);
+  if (!grey) return unit.yzw;
+  return vec3(unit.z <= depth ? unit.w : unit.y);
 }
 
 #ifdef VOLUME_COUNT
-// The same in a texel of smoke.
+// The same in a texel of smoke: linear from the last knot before it to the next one.
 Extinction smokeOpticalDepthAt(ShadowTexel texel, float depth) {
   bool isShort = (texel.count & SHADOW_SHORT) != 0u;
   float last = texel.opaqueDepth;
@@ -145,8 +137,9 @@ vec3 takeOwnSteps(inout ShadowTexel texel, float depth, float slack, uint object
   if ((texel.count & SHADOW_OWN_STEPS) != 0u) listed = knotUnit(number);
   while (listed.y != 0.0 && listed.x <= depth) {
     if (uint(listed.y) == object && listed.x <= depth - slack) {
-      uint before = texel.first + uint(listed.z);
-      ownTau += knotUnit(before + 1u).yzw - knotUnit(before).yzw;
+      uint step = uint(listed.z);
+      ownTau += knotUnit(texel.first + step).yzw;
+      if (step != 0u) ownTau -= knotUnit(texel.first + step - 1u).yzw;
     } else if (uint(listed.y) != object && listed.w != 0.0) {
       texel.opaqueDepth = min(texel.opaqueDepth, listed.x);
     }

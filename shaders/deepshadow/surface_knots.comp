@@ -1,5 +1,5 @@
-// Writes the texels of a face, and two knots for each surface of a texel's run, in order of depth. So a lookup is a binary
-// search and no walk. A texel of very many surfaces keeps its state in its last knots, and goes on in the next dispatch.
+// Writes the texels of a face, and a knot for each surface of a texel's run, in order of depth. So a lookup is a binary
+// search and no walk. A texel of very many surfaces keeps its state in its last units, and goes on in the next dispatch.
 // SURFACES is defined when there are lists; SHADOW_ONCE_OBJECTS and SHADOW_NOT_SELF_OBJECTS when some of their surfaces
 // shadow in these ways.
 #include "shaders/deepshadow/knot_pool.glsl"
@@ -15,6 +15,8 @@
 #define WALK_LIMIT 30000u
 #endif
 #endif
+
+const uint FEW = 64u;
 
 uint walked = 0u;
 ListRun run = ListRun(0u, 0u);
@@ -46,7 +48,7 @@ ShadowNode surfaceNode(uint number) {
   return ShadowNode(words.x, words.y);
 }
 
-// What goes on in the next dispatch; the last two knots are free for it, as a surface is still to come.
+// What goes on in the next dispatch; the last two units are free for it, as a surface is still to come.
 void keepState(uint lastUnit) {
   uint word = 4u * lastUnit - 4u;
   words[word] = surface;
@@ -71,7 +73,6 @@ uint objectOf(ShadowNode node) {
 
 // Whether all surfaces take as much of each channel; where there are many nobody looks.
 bool surfacesAreGrey() {
-  const uint FEW = 64u;
   bool same = run.count <= FEW;
   for (uint i = 0u; i < run.count && same; ++i) {
     uvec2 words = listPayloadPair(run.first + i);
@@ -95,7 +96,6 @@ void writeSurfaces(float opaque) {
       ++ownStep;
     }
 #endif
-    writeKnot(at, surfaceTau);
     surfaceTau += drop;
     writeKnot(at, surfaceTau);
     if (at > opaque) ++hidden;
@@ -126,27 +126,30 @@ void main() {
 #ifdef SURFACES
   bool continuing = params.units.y == SHADOW_UNFINISHED;
   run = listRun(uint(params.cells.z) + linearId());
-  uint count = 2u * run.count;
   uint ownSteps = ownStepsAtMost();
   grey = ownSteps == 0u && surfacesAreGrey();
+  uint units = grey ? (run.count + 1u) / 2u : run.count;
+  uint stateUnits = run.count > FEW ? 1u : 0u;
   uint first = 0u;
   if (continuing) first = texels[number].first - uint(params.units.x);
-  else if (!takeUnits((grey ? count / 2u : count) + ownSteps, first)) return;
+  else if (!takeUnits(units + ownSteps + stateUnits, first)) return;
+  uint lastUnit = first + units + ownSteps + stateUnits - 1u;
   uint flags = (grey ? SHADOW_GREY : 0u) | (ownSteps != 0u ? SHADOW_OWN_STEPS : 0u);
-  texels[number] = ShadowTexel(uint(params.units.x) + first, count | flags, opaque);
+  texels[number] = ShadowTexel(uint(params.units.x) + first, run.count | flags, opaque);
 
   place = 4u * first;
   firstUnit = first;
-  ownStep = first + count;
-  if (continuing) takeState(first + count - 1u);
+  ownStep = first + units;
+  if (continuing) takeState(lastUnit);
   writeSurfaces(opaque);
+  if (grey && (run.count & 1u) != 0u) writeKnot(NOTHING_OPAQUE, surfaceTau);
 #ifdef SHADOW_NOT_SELF_OBJECTS
   if (ownSteps != 0u && !stopped) {
     for (uint i = 0u; i < 4u; ++i) words[4u * ownStep + i] = 0u;
   }
 #endif
   if (stopped) {
-    keepState(first + count - 1u);
+    keepState(lastUnit);
     texels[number].count = UNFINISHED;
     atomicAdd(counters.unfinished, 1u);
   }

@@ -13,14 +13,13 @@ struct ShadowFace {
   vec4 smoke;  // what of the face smoke can be before, in texels: x, y from, z, w to
 };
 
-// The function of one texel is 0 behind its opaque depth; before it, exp(-tau) with tau linear between its knots. Those of
-// surfaces and those of smoke are multiplied.
+// The function of one texel is 0 behind its opaque depth; before it, exp(-tau). Of smoke, tau is linear between its knots; of
+// surfaces each knot is a step up to its tau. Those of surfaces and those of smoke are multiplied.
 // The pool's unit is 16 bytes: one knot of a coloured texel, two (depth, tau) of a grey one, whose odd last is followed
 // by one at NOTHING_OPAQUE. Where that keeps the bound of their error, knots of smoke are short: a word of a grey one
 // (shaders/deepshadow/short_knot.glsl), two of a coloured one, the last repeated to the end of its unit.
 // Steps of objects that do not shadow themselves stand in the list once more, behind those knots, so that they can be
-// taken out again: as knots of (depth, object, number of the knot before the step, 1 where opaque), ended by one of
-// object 0.
+// taken out again: as knots of (depth, object, number of the step's knot, 1 where opaque), ended by one of object 0.
 struct ShadowTexel {
   uint first;         // unit of the pool
   uint count;         // knots; and SHADOW_GREY, SHADOW_OWN_STEPS, SHADOW_SHORT
@@ -28,7 +27,7 @@ struct ShadowTexel {
 };
 
 struct ShadowKnot {
-  float depth;  // ascending; two of one depth are a step
+  float depth;  // ascending
   float tauR;   // optical depth from the light to here
   float tauG;
   float tauB;

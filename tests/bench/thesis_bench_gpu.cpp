@@ -159,10 +159,10 @@ class Bench {
     for (int i = 0; i <= frames_; ++i) {
       for (size_t way = 0; way < ways.size(); ++way) {
         const auto draw = [&] {
-          images[way] = pipeline
-                            .render(world.scene.cameras.at(0), width, height,
-                                    qualityOf(ways[way], shadowResolution))
-                            .radiance;
+          images[way] =
+              pipeline
+                  .render(world.scene.cameras.at(0), width, height, qualityOf(ways[way], shadowResolution))
+                  .radiance;
         };
         const std::clock_t processor = std::clock();
         const auto start = std::chrono::steady_clock::now();

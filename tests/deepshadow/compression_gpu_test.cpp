@@ -216,7 +216,7 @@ TEST_F(ShadowBudgetGpu, MoreSurfacesThanUsualAreFoundOutAndFit) {
   const MapPlan asked{{128}, 1.0 / 512};
   const Maps whole = maps(known, asked, {});
   EXPECT_EQ(whole.predictedBytes(), 0u);
-  EXPECT_GT(whole.bytes(), 128u * 128u * 40u * 2u * 16u / 2u);
+  EXPECT_GT(whole.bytes(), 128u * 128u * 40u * 16u / 2u);
   const size_t bytes = whole.bytes() / 2;
   const Maps fitted = maps(known, asked, {.bytes = bytes});
   EXPECT_GT(fitted.predictedBytes(), 0u);
