@@ -25,7 +25,7 @@
 #define STORAGE_FIRE_RAMPS 8        // vec4[]: radiance per metre
 #define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
-#define STORAGE_SHADOW_KNOTS 12   // ShadowKnot[], likewise
+#define STORAGE_SHADOW_KNOTS 12   // uint[], four a unit, likewise
 #define STORAGE_VOLUMES 13        // VolumeData[]
 #define STORAGE_RAYS 14         // RayState[]
 #define STORAGE_SEEN 27         // float[]: what rays have seen: see rays.glsl
