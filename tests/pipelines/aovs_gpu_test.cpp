@@ -164,7 +164,7 @@ TEST_F(AovsGpu, CountWhatListsHold) {
   };
   EXPECT_EQ(at(Aov::Fragments, -0.5, 0.3), 3);
   EXPECT_EQ(at(Aov::Fragments, 0.5, 0.3), 0);
-  EXPECT_EQ(at(Aov::ShadowNodes, -0.5, 0.3), 6);  // each pane is a step: two nodes of one depth
+  EXPECT_EQ(at(Aov::ShadowNodes, -0.5, 0.3), 3);  // each pane is a step
   EXPECT_EQ(at(Aov::ShadowNodes, 0.5, 0.3), 0);
   EXPECT_EQ(at(Aov::Lights, 1, -0.75), 2);
   EXPECT_EQ(at(Aov::Lights, -0.5, 0.3), 1);
