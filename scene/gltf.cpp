@@ -219,6 +219,7 @@ bool keepEncoded(tinygltf::Image* image, int, std::string*, std::string*, int, i
 }
 
 constexpr std::string_view binaryMagic = "glTF";
+constexpr std::string_view openVdbMagic = " BDV";
 
 // The JSON text: the whole file, or a .glb's first chunk once its lengths are known to hold.
 std::string_view jsonOf(std::string_view file, const Faults& faults) {
@@ -243,6 +244,7 @@ Model parse(const fs::path& path, const Faults& faults) {
   const std::vector<std::byte> bytes = base::readFile(path);
   const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (file.empty()) faults.fail("is empty: export it again");
+  if (file.starts_with(openVdbMagic)) faults.fail("is OpenVDB smoke and no scene: name it after --volume");
   const std::string_view json = jsonOf(file, faults);
   if (file.size() > std::numeric_limits<uint32_t>::max() || json.size() > std::numeric_limits<int>::max())
     faults.fail("has more than 4 GiB, or 2 GiB of JSON: keep buffers in .bin files beside it");

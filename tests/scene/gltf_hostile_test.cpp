@@ -113,6 +113,10 @@ GltfBuilder everything() {
   return gltf;
 }
 
+TEST(GltfOfAnotherKind, SmokeIsToldWhereItBelongs) {
+  expectError(errorOf(std::string(" BDV\0\0\0\0", 8), "smoke.vdb"), "--volume", "an OpenVDB file");
+}
+
 TEST_F(GltfHostile, TheSceneToDamageLoads) {
   EXPECT_EQ(errorOf(everything().text()), "");
   EXPECT_EQ(errorOf(everything().binary()), "");
