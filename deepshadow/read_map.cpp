@@ -93,7 +93,7 @@ ShadowKnot longKnot(const shared::ShadowTexel& texel, std::span<const glm::uvec4
   return {knot.x, knot.y, knot.y, knot.y};
 }
 
-// As shaders/deepshadow/short_knot.glsl has it.
+// As shaders/deepshadow/smoke_knot.glsl has it.
 ShadowKnot shortKnot(const shared::ShadowTexel& texel, std::span<const glm::uvec4> units, size_t number) {
   const auto word = [&](size_t i) { return units[i / 4][static_cast<int>(i % 4)]; };
   const auto tau = [](uint32_t bits) {
@@ -118,7 +118,7 @@ ReadMap decoded(std::span<const shared::ShadowTexel> texels, std::span<const glm
   for (const shared::ShadowTexel& texel : texels) {
     const bool isShort = (texel.count & SHADOW_SHORT) != 0;
     const size_t count = texel.count & (isShort ? SHADOW_SHORT_KNOTS : SHADOW_KNOTS);
-    const auto stored = units.subspan(texel.first - firstUnit);
+    const auto stored = count > 0 ? units.subspan(texel.first - firstUnit) : std::span<const glm::uvec4>();
     const size_t first = result.knots.size();
     ShadowKnot before{};
     for (size_t i = 0; i < count; ++i) {
@@ -135,8 +135,7 @@ ReadMap decoded(std::span<const shared::ShadowTexel> texels, std::span<const glm
 
 void appendJoined(const FaceProjection& face, const ReadMap& surfaces, const ReadMap& smoke,
                   ReadMap& joined) {
-  const size_t texels = static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
-  for (size_t i = 0; i < texels; ++i) {
+  for (size_t i = 0; i < face.texels(); ++i) {
     const size_t first = joined.knots.size();
     const size_t own = face.casters ? i : 0;
     append(surfaces.knotsOf(own), smokeAround(face, smoke, i), joined.knots);

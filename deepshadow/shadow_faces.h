@@ -20,6 +20,7 @@ struct FaceProjection {
   int smokeSide = 0;           // texels of smoke; 0: none
   glm::dvec4 smoke{0};         // where they hold any: see ShadowFace
 
+  size_t texels() const { return static_cast<size_t>(side) * static_cast<size_t>(side); }
   int surfaceSide() const { return casters ? side : 1; }  // texels of surfaces that are stored
 };
 

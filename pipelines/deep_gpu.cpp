@@ -196,8 +196,7 @@ std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t li
         "deep shadow map of light {}: it reaches nothing that is seen and has no map: choose another light",
         light);
   size_t texels = 0;
-  for (const deepshadow::FaceProjection& face : maps.faces(light))
-    texels += static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
+  for (const deepshadow::FaceProjection& face : maps.faces(light)) texels += face.texels();
   const size_t atMost =
       (maps.knotsAtMost(light) + texels) * sizeof(image::DeepSample) + texels * sizeof(std::vector<int>);
   if (atMost > limits.sampleBytes) failOverMemory(atMost, limits.sampleBytes);
@@ -219,7 +218,7 @@ std::vector<image::DeepImage> deepShadow(const deepshadow::Maps& maps, size_t li
       }
     });
     images.push_back(std::move(image));
-    firstTexel += static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
+    firstTexel += face.texels();
   }
   return images;
 }

@@ -87,7 +87,7 @@ class Predictor {
   PredictedLists shadows(const std::vector<FaceProjection>& faces, size_t triangles) const {
     PredictedLists sum;
     for (const FaceProjection& face : faces) {
-      const size_t texels = static_cast<size_t>(face.side) * static_cast<size_t>(face.side);
+      const size_t texels = face.texels();
       const FragmentCount count({.viewFromWorld = glm::inverse(face.worldFromFace),
                                  .halfExtent = face.halfExtent,
                                  .orthographic = face.orthographic,

@@ -79,11 +79,10 @@ SceneGpu::SceneGpu(gl::Device& device, const scene::Scene& scene, std::span<cons
 gl::ShaderDefines SceneGpu::lightingDefines(const Quality& quality) const {
   gl::ShaderDefines defines;
   if (geometry_.hasNotSelf()) defines.emplace_back("SHADOW_OBJECTS", "1");
-  if (!geometry_.has(Layer::ShadowLists) && quality.walkedSmokeNodes == 0)
+  if (!geometry_.has(Layer::ShadowLists) && quality.walkedSmokeNodes == 0) {
     defines.emplace_back("OPAQUE_SHADOWS", "1");
-  if (!geometry_.has(Layer::ShadowLists) && !geometry_.has(Layer::ShadowDepth) &&
-      quality.walkedSmokeNodes == 0)
-    defines.emplace_back("NO_CASTERS", "1");
+    if (!geometry_.has(Layer::ShadowDepth)) defines.emplace_back("NO_CASTERS", "1");
+  }
   if (scene_.ambient != glm::dvec3(0)) defines.emplace_back("AMBIENT", "1");
   if (volumes_.empty()) return defines;
   defines.emplace_back("SMOKE", "1");

@@ -22,8 +22,7 @@ layout(std430, binding = STORAGE_COUNTERS) coherent buffer Counting {
 const uint NO_ROOM = 0xffffffffu;     // a count
 const uint UNFINISHED = 0xfffffffeu;  // likewise
 
-uint place = 0u;   // of the next word
-bool grey = true;  // so that a knot takes half a unit
+uint place = 0u;  // of the next word
 
 // Of the invocation, in the face.
 ivec2 texelOfCell() {
@@ -57,13 +56,4 @@ bool takeUnits(uint count, out uint first) {
 void writeWord(uint word) {
   words[place] = word;
   ++place;
-}
-
-void writeKnot(float depth, vec3 tau) {
-  writeWord(floatBitsToUint(depth));
-  writeWord(floatBitsToUint(tau.r));
-  if (!grey) {
-    writeWord(floatBitsToUint(tau.g));
-    writeWord(floatBitsToUint(tau.b));
-  }
 }

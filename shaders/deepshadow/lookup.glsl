@@ -2,7 +2,7 @@
 // defined when there is smoke, NEAREST_SMOKE_SHADOWS when lookups of points in it ask one texel of surfaces, OPAQUE_SHADOWS
 // when no surface lets light through, NO_CASTERS when none casts a shadow.
 #include "shaders/deepshadow/faces.glsl"
-#include "shaders/deepshadow/short_knot.glsl"
+#include "shaders/deepshadow/smoke_knot.glsl"
 
 // As buffer textures, because all maps together may be larger than one storage block.
 layout(binding = TEXTURE_SHADOW_TEXELS) uniform usamplerBuffer shadowTexels;  // ShadowTexel
@@ -15,12 +15,6 @@ ShadowTexel shadowTexel(uint number) {
   return ShadowTexel(words.x, words.y, uintBitsToFloat(words.z));
 }
 
-#ifndef WALK_LISTS
-vec4 knotUnit(uint number) {
-  return uintBitsToFloat(texelFetch(shadowKnots, int(number)));
-}
-#endif
-
 uint knotCount(ShadowTexel texel) {
   return texel.count & ((texel.count & SHADOW_SHORT) != 0u ? SHADOW_SHORT_KNOTS : SHADOW_KNOTS);
 }
@@ -28,6 +22,10 @@ uint knotCount(ShadowTexel texel) {
 #ifdef WALK_LISTS
 #include "shaders/deepshadow/walk.glsl"
 #else
+
+vec4 knotUnit(uint number) {
+  return uintBitsToFloat(texelFetch(shadowKnots, int(number)));
+}
 
 // How many of a texel's units begin at or before a depth, at least `first`, found by bisection: the last of them and the next
 // one, where there are such. `key`: the largest first word of a unit that does.
@@ -59,11 +57,11 @@ uint keyOf(float depth) {
 vec3 opticalDepthAt(ShadowTexel texel, float depth) {
   bool grey = (texel.count & SHADOW_GREY) != 0u;
   uint units = grey ? (knotCount(texel) + 1u) >> 1 : knotCount(texel);
-  uvec4 words, next;
-  if (unitsBefore(texel, units, 0u, keyOf(depth), words, next) == 0u) return vec3(0.0);
-  vec4 unit = uintBitsToFloat(words);
-  if (!grey) return unit.yzw;
-  return vec3(unit.z <= depth ? unit.w : unit.y);
+  uint key = keyOf(depth);
+  uvec4 unit, next;
+  if (unitsBefore(texel, units, 0u, key, unit, next) == 0u) return vec3(0.0);
+  if (!grey) return uintBitsToFloat(unit.yzw);
+  return vec3(uintBitsToFloat(unit.z <= key ? unit.w : unit.y));
 }
 
 #ifdef VOLUME_COUNT
@@ -71,8 +69,7 @@ vec3 opticalDepthAt(ShadowTexel texel, float depth) {
 Extinction smokeOpticalDepthAt(ShadowTexel texel, float depth) {
   bool isShort = (texel.count & SHADOW_SHORT) != 0u;
   float last = texel.opaqueDepth;
-  uint inUnit = smokeKnotsInUnit(isShort);
-  uint units = (knotCount(texel) + inUnit - 1u) / inUnit;
+  uint units = smokeUnits(knotCount(texel), isShort);
   uint first = depth < last ? 0u : units - 1u;
   uint key = keyOf(depth);
   if (isShort) {
@@ -83,34 +80,9 @@ Extinction smokeOpticalDepthAt(ShadowTexel texel, float depth) {
   uvec4 unit, next;
   uint begun = unitsBefore(texel, units, first, key, unit, next);
   if (begun == 0u) return Extinction(0.0);
-  bool isLast = begun == units;
-#ifdef COLOURED_SMOKE
-  SmokeKnot before = isShort ? shortKnot(unit.xy) : longKnot(unit);
-  SmokeKnot after = isShort ? shortKnot(unit.zw) : longKnot(next);
-  bool second = isShort && unit.z <= key;
-  if (second) before = after;
-  if (second && !isLast) after = shortKnot(next.xy);
-  if (!isShort && isLast) after = before;
-#else
+  if (begun == units) next = unitBehind(unit, isShort);
   SmokeKnot before, after;
-  if (isShort) {
-    uint wordBefore = unit.x;
-    uint wordAfter = unit.y;
-    for (int i = 1; i < 4; ++i) {
-      if (unit[i] <= key) {
-        wordBefore = unit[i];
-        wordAfter = i < 3 ? unit[i + 1] : isLast ? unit[i] : next.x;
-      }
-    }
-    before = shortKnot(wordBefore);
-    after = shortKnot(wordAfter);
-  } else {
-    bool second = uintBitsToFloat(unit.z) <= depth;
-    before = longKnot(second ? unit.zw : unit.xy);
-    after = longKnot(second ? next.xy : unit.zw);
-    if (second && isLast) after = before;
-  }
-#endif
+  knotsAround(unit, next, key, isShort, before, after);
   float run = after.depth - before.depth;
   return mix(before.tau, after.tau, run > 0.0 ? (depth - before.depth) / run : 0.0);
 }
@@ -182,7 +154,7 @@ vec3 smokeTransmittance(ShadowFace face, vec2 place, float depth) {
   Extinction tau = Extinction(0.0);
   Taps taps = tapsAround(smokePlace(face, place), 2);
   for (int i = 0; i < 4; ++i) {
-    ivec2 offset = ivec2(i & 1, i >> 1);
+    ivec2 offset = tapOffset(i, 2);
     ShadowTexel texel = shadowTexel(smokeTexelNumber(face, taps.first + offset));
     if (knotCount(texel) != 0u)
       tau += taps.x[offset.x] * taps.y[offset.y] * smokeOpticalDepthAt(texel, depth);

@@ -2,7 +2,7 @@
 // reads them is before. Smoke comes in order of depth by itself: it needs no list. Its knots are kept while they are
 // counted; what is more than a few is marched again. They are short knots where these are exact enough.
 #include "shaders/deepshadow/knot_pool.glsl"
-#include "shaders/deepshadow/short_knot.glsl"
+#include "shaders/deepshadow/smoke_knot.glsl"
 #include "shaders/deepshadow/smoke_march.glsl"
 
 const uint KEPT = 24u;
@@ -98,9 +98,10 @@ void main() {
     }
   }
 #ifdef COLOURED_SMOKE
-  grey = false;
+  uint flags = 0u;
+#else
+  uint flags = SHADOW_GREY;
 #endif
-  uint flags = grey ? SHADOW_GREY : 0u;
   if (count != 0u && shortShare() > 0.0) {
     uint startBits = uint(min(kept[0].depth / last.depth * SHADOW_STARTS, SHADOW_STARTS - 1.0)) << SHADOW_START_BIT;
     start = shortStart(startBits, last.depth);
@@ -109,9 +110,9 @@ void main() {
               0.5 * steepest / steps + SHORT_TAU_ERROR <= shortShare() * params.march.y;
     if (isShort) flags |= SHADOW_SHORT | startBits;
   }
-  uint inUnit = smokeKnotsInUnit(isShort);
+  uint units = smokeUnits(count, isShort);
   uint first;
-  if (!takeUnits((count + inUnit - 1u) / inUnit, first)) return;
+  if (!takeUnits(units, first)) return;
   texels[numberOfCell()] = ShadowTexel(uint(params.units.x) + first, count | flags, last.depth);
 
   place = 4u * first;
@@ -126,5 +127,5 @@ void main() {
   }
   for (; left != 0u; --left) writeKnot(last);
   if (!isShort) last.depth = NOTHING_OPAQUE;
-  for (; count % inUnit != 0u; ++count) writeKnot(last);
+  for (; count < units << knotsShift(isShort); ++count) writeKnot(last);
 }

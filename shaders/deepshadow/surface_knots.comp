@@ -16,8 +16,9 @@
 #endif
 #endif
 
-const uint FEW = 64u;
+const uint FEW = 64u;  // surfaces, of which one dispatch surely sees the end
 
+bool grey = true;          // so that a knot takes half a unit
 uint walked = 0u;
 ListRun run = ListRun(0u, 0u);
 uint surface = 0u;         // of the run, the next one
@@ -80,6 +81,15 @@ bool surfacesAreGrey() {
     same = words.x >> 16 == tauR && (words.y & 0xffffu) == tauR;
   }
   return same;
+}
+
+void writeKnot(float depth, vec3 tau) {
+  writeWord(floatBitsToUint(depth));
+  writeWord(floatBitsToUint(tau.r));
+  if (!grey) {
+    writeWord(floatBitsToUint(tau.g));
+    writeWord(floatBitsToUint(tau.b));
+  }
 }
 
 void writeSurfaces(float opaque) {

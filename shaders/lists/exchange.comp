@@ -8,12 +8,15 @@
 
 void main() {
   uint pairs = uint(sorting.more.x) / 2u;
-  ListRun run = sortedRun(linearId() / pairs);
-  uint pair = linearId() % pairs;
+  ivec2 pairRun = placeInRows(linearId(), int(pairs));
+  ListRun run = sortedRun(uint(pairRun.y));
+  uint pair = uint(pairRun.x);
   bool mirrored = sorting.step.w == 0;
   uint distance = mirrored ? uint(sorting.step.z) / 2u : uint(sorting.step.w);
-  uint a = pair / distance * (2u * distance) + pair % distance;
-  uint b = mirrored ? pair / distance * (2u * distance) + 2u * distance - 1u - pair % distance : a + distance;
+  ivec2 placeBlock = placeInRows(pair, int(distance));
+  uint block = uint(placeBlock.y) * 2u * distance;
+  uint a = block + uint(placeBlock.x);
+  uint b = mirrored ? block + 2u * distance - 1u - uint(placeBlock.x) : a + distance;
   if (b >= run.count) return;
   a += run.first;
   b += run.first;

@@ -17,7 +17,7 @@ struct ShadowFace {
 // surfaces each knot is a step up to its tau. Those of surfaces and those of smoke are multiplied.
 // The pool's unit is 16 bytes: one knot of a coloured texel, two (depth, tau) of a grey one, whose odd last is followed
 // by one at NOTHING_OPAQUE. Where that keeps the bound of their error, knots of smoke are short: a word of a grey one
-// (shaders/deepshadow/short_knot.glsl), two of a coloured one, the last repeated to the end of its unit.
+// (shaders/deepshadow/smoke_knot.glsl), two of a coloured one, the last repeated to the end of its unit.
 // Steps of objects that do not shadow themselves stand in the list once more, behind those knots, so that they can be
 // taken out again: as knots of (depth, object, number of the step's knot, 1 where opaque), ended by one of object 0.
 struct ShadowTexel {

@@ -11,10 +11,6 @@ uint quotient(uint a, uint b) {
   return q;
 }
 
-uint remainder(uint a, uint b) {
-  return a - quotient(a, b) * b;
-}
-
 // Column and row of the number-th place, row by row.
 ivec2 placeInRows(uint number, int width) {
   uint row = quotient(number, uint(width));

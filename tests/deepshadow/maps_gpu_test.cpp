@@ -260,10 +260,13 @@ TEST_F(MapsGpu, ObjectsThatShadowOnceAreFoundAmongVeryManySurfaces) {
 TEST_F(MapsGpu, WindowsAndGrowingPoolsGiveTheSameFunctions) {
   // 1536 texels a side are built in three windows, and their knots outgrow the first pool.
   KnownScene known = smokeUnder(tests::directionalLight({0.4, -1, 0.2}, dvec3(1)));
-  // Takes nothing, and makes the map's texels of surfaces as many as they are asked to be.
-  tests::add(known.scene, tests::quad({-1, 0.1f, -1}, {2, 0, 0}, {0, 0, 2}), tests::pane({1, 1, 1}));
+  // They take nothing, but a knot each in every texel.
+  for (const float height : {0.1f, 0.2f})
+    tests::add(known.scene, tests::quad({-9, height, -9}, {18, 0, 0}, {0, 0, 18}), tests::pane({1, 1, 1}));
   const LightFunction map = build(known, 1536, 1.0 / 512, 0.5);
   EXPECT_GT(statistics_.lists.windows, 1);
+  // The first pool has a unit of 16 bytes for every fourth texel, and three for every fourth of smoke.
+  EXPECT_GT(statistics_.knotBytes, statistics_.texels * 4 + statistics_.smokeTexels * 12);
   EXPECT_LT(worstError(map, known), 1.0 / 512 + 1.0 / 400);  // coarser steps than above
 }
 
