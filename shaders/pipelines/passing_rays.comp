@@ -4,6 +4,7 @@
 #include "shaders/lists/runs.glsl"
 #include "shaders/pipelines/rays.glsl"
 #include "shaders/shared/linear_id.glsl"
+#include "shaders/shared/tiled_order.glsl"
 #ifdef SMOKE_BLOCKS
 #include "shaders/pipelines/smoke_blocks.glsl"
 #endif
@@ -18,6 +19,7 @@ layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
 void main() {
   uint number = linearId();
   if (number >= uint(params.options.w)) return;
+  if (number < uint(view.window.z * view.window.w)) number = inTiles(number, view.window.zw);
   RayPlace place = rayPlace(number);
   float opaque = texelFetch(opaqueDepth, place.pixel - view.tile.xy, place.number).r;
   if (place.split || opaque < view.depthRange.y || listRun(listOfPixel(view, place.pixel)).count != 0u) {
