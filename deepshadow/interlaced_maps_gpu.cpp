@@ -122,7 +122,7 @@ void InterlacedMaps::build(gl::Device& device, const InterlacedInputs& inputs) {
     data.push_back(faceData(face.projection, static_cast<size_t>(face.corner.y) * static_cast<size_t>(side)));
     data.back().texels.w = face.corner.x;
   }
-  faceData_ = gl::Buffer(device, "interlaced shadow faces", std::span<const shared::ShadowFace>(data));
+  faceData_ = gl::Records(device, "interlaced shadow faces", std::span<const shared::ShadowFace>(data));
   if (faces_.empty()) return;
   reserve(device, size, inputs.kind);
   draw(device, inputs);
@@ -203,7 +203,7 @@ size_t InterlacedMaps::bytes() const {
 }
 
 void InterlacedMaps::bind() const {
-  faceData_.bindStorage(STORAGE_SHADOW_FACES);
+  faceData_.bind(TEXTURE_SHADOW_FACES);
   if (depths_.bytes() > 0) depths_.bind(TEXTURE_SHADOW_TEXELS);
   if (filters_.bytes() > 0) filters_.bind(TEXTURE_SHADOW_KNOTS);
 }

@@ -101,7 +101,7 @@ class InterlacedMaps {
   std::vector<LightMap> lights_;
   std::vector<Face> faces_;
   std::vector<glm::vec3> lightColours_;  // of each face
-  gl::Buffer faceData_;
+  gl::Records faceData_;
   gl::Texture depths_;
   gl::Texture filters_;
   gl::Texture depthTest_;

@@ -530,7 +530,7 @@ void Maps::uploadFaces(gl::Device& device) {
       firstTexel += allTexelsOf(face);
     }
   }
-  faces_ = gl::Buffer(device, "shadow faces", std::span<const shared::ShadowFace>(faces));
+  faces_ = gl::Records(device, "shadow faces", std::span<const shared::ShadowFace>(faces));
 }
 
 void Maps::buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels) {
@@ -576,7 +576,7 @@ ReadMap Maps::read(size_t light) const {
 }
 
 void Maps::bind() const {
-  faces_.bindStorage(STORAGE_SHADOW_FACES);
+  faces_.bind(TEXTURE_SHADOW_FACES);
   if (linked_) {
     linked_->bindLinked(TEXTURE_SHADOW_TEXELS, TEXTURE_SHADOW_KNOTS, TEXTURE_SHADOW_NODES);
     texelsView_.bind(TEXTURE_SHADOW_TEXELS);

@@ -110,7 +110,7 @@ class Maps {
   size_t predictedBytes_ = 0;
   std::vector<LightMap> lightMaps_;
   std::vector<std::vector<FaceProjection>> projections_;  // of each light
-  gl::Buffer faces_;
+  gl::Records faces_;
   gl::Buffer texels_;
   gl::Buffer knots_;
   gl::BufferTexture texelsView_;

@@ -99,6 +99,23 @@ class BufferTexture {
   Object<deleteTexture> object_;
 };
 
+// An array of structs of vec4s, for shaders to read as texels of four words (RGBA32UI), a vec4 each: some
+// drivers read storage blocks word by word and lane by lane.
+class Records {
+ public:
+  Records() = default;
+  template <typename T>
+  Records(Device& device, std::string label, std::span<const T> values)
+      : buffer_(device, std::move(label), values), rows_(device, buffer_, BufferFormat::RGBA32UI) {
+    static_assert(sizeof(T) % sizeof(glm::vec4) == 0);
+  }
+  void bind(unsigned unit) const { rows_.bind(unit); }
+
+ private:
+  Buffer buffer_;
+  BufferTexture rows_;
+};
+
 // What a draw writes to. Textures attached must outlive it.
 class Framebuffer {
  public:

@@ -64,7 +64,7 @@ LightLists::LightLists(gl::Device& device, const LightListInputs& inputs, const 
     data.push_back(lightData(light, inputs.shadows[static_cast<size_t>(number)], number));
     directional_ += light.type == LightType::Directional;
   }
-  lights_ = gl::Buffer(device, "lights", std::span<const shared::LightData>(data));
+  lights_ = gl::Records(device, "lights", std::span<const shared::LightData>(data));
 
   shared::LightPassParams params{};
   params.cells = {cells.ofImage.x, cells.ofImage.y, cellSide, directional_};
@@ -106,7 +106,7 @@ void LightLists::store(gl::Device& device, const LightListInputs& inputs, const 
     receivers = gl::BufferTexture(device, *inputs.receivers, gl::BufferFormat::RG32UI);
     receivers.bind(TEXTURE_RECEIVER_DEPTHS);
   }
-  lights_.bindStorage(STORAGE_LIGHTS);
+  lights_.bind(TEXTURE_LIGHTS);
   inputs.view.bindUniform(UNIFORM_VIEW);
   passBlock_.bindUniform(UNIFORM_PASS);
   const bool many = proxies() >= manyLights;
@@ -136,7 +136,7 @@ void LightLists::compute(gl::Device& device, const Cells& cells, const gl::Shade
 }
 
 void LightLists::bind() const {
-  lights_.bindStorage(STORAGE_LIGHTS);
+  lights_.bind(TEXTURE_LIGHTS);
   if (linked_)
     lists_.bindLinked(TEXTURE_LIGHT_CELL_RUNS, TEXTURE_LIGHT_CELL_KEYS, 0);
   else

@@ -85,7 +85,7 @@ class LightLists {
 
   std::vector<int> order_;
   int directional_ = 0;
-  gl::Buffer lights_;
+  gl::Records lights_;
   gl::Buffer passBlock_;
   lists::Lists lists_;
   bool linked_ = false;

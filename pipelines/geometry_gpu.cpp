@@ -137,7 +137,7 @@ void GeometryGpu::uploadMeshes(gl::Device& device, const Scene& scene) {
 
   vertices_ = gl::Buffer(device, "vertices", std::span<const Vertex>(vertices));
   indices_ = gl::Buffer(device, "indices", std::span<const uint32_t>(indices));
-  drawData_ = gl::Buffer(device, "draws", std::span<const shared::DrawData>(drawData));
+  drawData_ = gl::Records(device, "draws", std::span<const shared::DrawData>(drawData));
   vertexArray_ = gl::VertexArray(device, vertices_, sizeof(Vertex), vertexAttributes, indices_,
                                  drawNumberLocation, drawData.size());
 }
@@ -156,6 +156,7 @@ void GeometryGpu::uploadMaterials(gl::Device& device, const Scene& scene) {
     data.push_back(materialData(material));
     MaterialTextures& textures = materials_.emplace_back();
     textures.doubleSided = material.doubleSided;
+    hasMasks_ = hasMasks_ || material.alphaMode == AlphaMode::Mask;
     for (const UsedTexture& used : usedTextures(material)) {
       if (used.use.texture < 0) continue;
       const auto [entry, isNew] =
@@ -166,7 +167,7 @@ void GeometryGpu::uploadMaterials(gl::Device& device, const Scene& scene) {
       textures.unit[used.unit] = entry->second;
     }
   }
-  materialData_ = gl::Buffer(device, "materials", std::span<const shared::MaterialData>(data));
+  materialData_ = gl::Records(device, "materials", std::span<const shared::MaterialData>(data));
 }
 
 void GeometryGpu::bindTextures(int material) const {
@@ -194,7 +195,10 @@ bool GeometryGpu::has(Layer layer) const {
 }
 
 gl::ShaderDefines GeometryGpu::defines() const {
-  return textures_.size() > 1 ? gl::ShaderDefines{{"TEXTURES", "1"}} : gl::ShaderDefines{};
+  gl::ShaderDefines defines;
+  if (textures_.size() > 1) defines.emplace_back("TEXTURES", "1");
+  if (hasMasks_) defines.emplace_back("MASKS", "1");
+  return defines;
 }
 
 const GeometryGpu::Draw* GeometryGpu::drawOf(size_t instance) const {
@@ -214,8 +218,8 @@ bool GeometryGpu::isDoubleSided(size_t instance) const {
 void GeometryGpu::drawInstance(size_t instance, gl::Cull cull) const {
   const Draw* draw = drawOf(instance);
   if (draw == nullptr) return;
-  drawData_.bindStorage(STORAGE_DRAWS);
-  materialData_.bindStorage(STORAGE_MATERIALS);
+  drawData_.bind(TEXTURE_DRAWS);
+  materialData_.bind(TEXTURE_MATERIALS);
   bindTextures(draw->material);
   gl::setCull(cull);
   gl::IndexedRange range = draw->range;
@@ -225,8 +229,8 @@ void GeometryGpu::drawInstance(size_t instance, gl::Cull cull) const {
 }
 
 void GeometryGpu::draw(Layer layer, bool cullBackFaces) const {
-  drawData_.bindStorage(STORAGE_DRAWS);
-  materialData_.bindStorage(STORAGE_MATERIALS);
+  drawData_.bind(TEXTURE_DRAWS);
+  materialData_.bind(TEXTURE_MATERIALS);
   int boundMaterial = -1;
   for (const Draw& draw : draws_) {
     if (!draw.isIn(layer)) continue;

@@ -68,12 +68,13 @@ class GeometryGpu {
   std::vector<gl::Texture> textures_;  // the first one is a white texel
   gl::Buffer vertices_;
   gl::Buffer indices_;
-  gl::Buffer drawData_;
-  gl::Buffer materialData_;
+  gl::Records drawData_;
+  gl::Records materialData_;
   gl::VertexArray vertexArray_;
   size_t triangles_ = 0;
   bool hasShadowOnce_ = false;
   bool hasNotSelf_ = false;
+  bool hasMasks_ = false;
 };
 
 }  // namespace sfumato::pipelines

@@ -2,9 +2,15 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/deepshadow.h"
 
-layout(std430, binding = STORAGE_SHADOW_FACES) readonly buffer Faces {
-  ShadowFace shadowFaces[];
-};
+layout(binding = TEXTURE_SHADOW_FACES) uniform usamplerBuffer faceRows;  // of ShadowFace, gl::Records
+
+ShadowFace shadowFaceAt(int number) {
+  int row = 7 * number;
+  return ShadowFace(mat4(uintBitsToFloat(texelFetch(faceRows, row)), uintBitsToFloat(texelFetch(faceRows, row + 1)),
+                         uintBitsToFloat(texelFetch(faceRows, row + 2)), uintBitsToFloat(texelFetch(faceRows, row + 3))),
+                    uintBitsToFloat(texelFetch(faceRows, row + 4)), ivec4(texelFetch(faceRows, row + 5)),
+                    uintBitsToFloat(texelFetch(faceRows, row + 6)));
+}
 
 // Of a light's `faces` (1, or the 6 of a cube: +x -x +y -y +z -z) the one that sees a point `toPoint` away from it.
 int faceTowards(int faces, vec3 toPoint) {

@@ -150,7 +150,7 @@ Told toldOnSurface(ShadowFace face, Receiver receiver, ivec2 texel) {
 // Of a point on a surface with the plane normal `normal`; see lookup.glsl. There are no objects in these maps.
 vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal, uint object,
                      int side) {
-  ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
+  ShadowFace face = shadowFaceAt(firstFace + faceTowards(faces, pWorld - lightPosition));
   bool perspective = face.texels.z != 0;
   Receiver receiver;
   receiver.p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;

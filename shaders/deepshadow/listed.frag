@@ -13,7 +13,7 @@ void main() {
   vec4 base = baseColour();
   vec3 tau = surfaceTau(base);
   if (base.a > 0.0 && depth < texelFetch(opaqueDepth, texel, 0).r) {
-    uint object = uint(draws[vDraw].indices.z);
+    uint object = uint(drawIndices().z);
     ShadowNode node = ShadowNode(packHalf2x16(tau.rg), packHalf2x16(vec2(tau.b, 0.0)) | object << 16);
     listStore(uint(texel.y * view.size.x + texel.x), depth, fragmentId(), node);
   }

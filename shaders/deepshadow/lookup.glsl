@@ -206,7 +206,7 @@ float opaqueDepthFrom(ShadowFace face, ivec2 texel, float depth, vec2 offset) {
 // much earlier.
 vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal, uint object,
                      int side) {
-  ShadowFace face = shadowFaces[firstFace + faceTowards(faces, pWorld - lightPosition)];
+  ShadowFace face = shadowFaceAt(firstFace + faceTowards(faces, pWorld - lightPosition));
   vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
   vec3 n = mat3(face.faceFromWorld) * normal;
   bool perspective = face.texels.z != 0;

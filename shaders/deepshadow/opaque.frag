@@ -4,6 +4,6 @@
 layout(location = 0) out float depth;
 
 void main() {
-  if (baseColour().a == 0.0) discard;
+  if (isCutOut()) discard;
   depth = fragmentDepth();
 }

@@ -3,7 +3,7 @@
 
 // How much longer the way through a thin shell is than its thickness, as far as the material counts it.
 float wayThrough() {
-  MaterialData material = materials[materialNumber()];
+  MaterialData material = surfaceMaterial();
   if (material.shadow.x == 0.0) return 1.0;
   vec3 along = view.halfExtent.z != 0.0 ? vec3(0.0, 0.0, -1.0) : normalize(vPositionView);
   vec3 n = shadingNormal(material, normalize(vNormalWorld));

@@ -2,9 +2,18 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/lights.h"
 
-layout(std430, binding = STORAGE_LIGHTS) readonly buffer Lights {
-  LightData lights[];
-};
+layout(binding = TEXTURE_LIGHTS) uniform usamplerBuffer lightRows;  // of LightData, gl::Records
+
+uint lightCount() {
+  return uint(textureSize(lightRows)) / 5u;
+}
+
+LightData lightAt(uint number) {
+  int row = 5 * int(number);
+  return LightData(uintBitsToFloat(texelFetch(lightRows, row)), uintBitsToFloat(texelFetch(lightRows, row + 1)),
+                   uintBitsToFloat(texelFetch(lightRows, row + 2)), uintBitsToFloat(texelFetch(lightRows, row + 3)),
+                   ivec4(texelFetch(lightRows, row + 4)));
+}
 
 // Irradiance on a surface that faces the light, W/m^2; `toLight` is a unit vector. KHR_lights_punctual.
 vec3 lightFrom(LightData light, vec3 pWorld, out vec3 toLight) {

@@ -23,7 +23,7 @@ void main() {
   bool hasList = all(lessThan(place, params.window.zw));
   CellRay middle = cellRay(vec2(params.window.xy + tile) + 0.5 * float(LIGHT_TILE_SIDE));
   uint first = uint(params.cells.w) + gl_WorkGroupID.z * uint(LIGHTS_OF_A_GROUP);
-  uint last = min(first + uint(LIGHTS_OF_A_GROUP), uint(lights.length()));
+  uint last = min(first + uint(LIGHTS_OF_A_GROUP), lightCount());
   for (uint some = first; some < last; some += LIGHTS_AT_A_TIME) {
     if (gl_LocalInvocationIndex == 0u) touching = 0u;
     barrier();

@@ -36,16 +36,16 @@ Proxy seenInSquare(Proxy proxy, float pixels, ViewParams camera) {
 
 // What a light reaches, with a little for rounding.
 Proxy lightProxy(uint number, ViewParams camera) {
-  vec4 position = lights[number].position;
+  LightData light = lightAt(number);
   Proxy proxy;
-  proxy.centre = (camera.viewFromWorld * vec4(position.xyz, 1.0)).xyz;
-  proxy.radius = position.w;
-  proxy.axis = mat3(camera.viewFromWorld) * lights[number].direction.xyz;
+  proxy.centre = (camera.viewFromWorld * vec4(light.position.xyz, 1.0)).xyz;
+  proxy.radius = light.position.w;
+  proxy.axis = mat3(camera.viewFromWorld) * light.direction.xyz;
   proxy.apex = proxy.centre;
-  proxy.cosine = lights[number].direction.w;
-  proxy.sine = lights[number].cone.z;
-  proxy.tangent = lights[number].cone.w;
-  proxy.isCone = lights[number].indices.x == LIGHT_SPOT && proxy.cosine > WIDEST_CONE_COSINE;
+  proxy.cosine = light.direction.w;
+  proxy.sine = light.cone.z;
+  proxy.tangent = light.cone.w;
+  proxy.isCone = light.indices.x == LIGHT_SPOT && proxy.cosine > WIDEST_CONE_COSINE;
   return inflated(proxy, 1e-5 * (proxy.radius + length(proxy.centre)));
 }
 

@@ -22,10 +22,10 @@ const uint LIST_LIMIT = 20000u;  // of each of two walks: below the drivers' loo
 
 // Nodes in the texels, of surfaces and of smoke, of a light's map that hold a point which the light reaches.
 uint nodesOfTexel(uint number, vec3 p) {
-  LightData light = lights[number];
+  LightData light = lightAt(number);
   vec3 toLight;
   if (light.indices.y < 0 || maxComponent(lightFrom(light, p, toLight)) <= 0.0) return 0u;
-  ShadowFace face = shadowFaces[light.indices.y + faceTowards(light.indices.z, p - light.position.xyz)];
+  ShadowFace face = shadowFaceAt(light.indices.y + faceTowards(light.indices.z, p - light.position.xyz));
   vec3 pFace = (face.faceFromWorld * vec4(p, 1.0)).xyz;
   vec2 xy = face.texels.z != 0 ? pFace.xy / max(-pFace.z, 1e-20) : pFace.xy;
   vec2 place = xy * face.projection.xy + face.projection.zw;

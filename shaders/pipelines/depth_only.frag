@@ -2,5 +2,5 @@
 #include "shaders/scene/material.glsl"
 
 void main() {
-  if (baseColour().a == 0.0) discard;
+  if (isCutOut()) discard;
 }

@@ -6,7 +6,7 @@
 
 void main() {
   uint number = uint(params.options.w);
-  if (lights[number].indices.x == LIGHT_DIRECTIONAL) {
+  if (lightAt(number).indices.x == LIGHT_DIRECTIONAL) {
     gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0);
   } else {
     gl_Position = view.clipFromView * vec4(proxyVertex(gl_VertexID, lightProxy(number, view)), 1.0);

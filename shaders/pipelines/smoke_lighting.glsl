@@ -96,14 +96,14 @@ vec3 turnedFromNearby(LightData light, Steps steps, int k, PixelRay ray, vec3 pa
 
 // Radiance that a light adds to the ray over the steps between its front and back depth, but for those close to it.
 vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float back, inout Nearby nearby) {
-  LightData light = lights[number];
+  LightData light = lightAt(number);
   bool shadowed = light.indices.y >= 0;
   bool cube = light.indices.z == 6;
   ShadowFace face;
   vec3 start = vec3(0.0);
   vec3 perDepth = vec3(0.0);
   if (shadowed) {
-    face = shadowFaces[light.indices.y];
+    face = shadowFaceAt(light.indices.y);
     start = (face.faceFromWorld * vec4(ray.origin, 1.0)).xyz;
     perDepth = mat3(face.faceFromWorld) * ray.perDepth;
   }
@@ -163,7 +163,7 @@ vec3 scattered(Steps steps, PixelRay ray) {
       int k = findLSB(nearby.steps);
       nearby.steps &= nearby.steps - 1u;
       vec3 passing = vec3(nearby.passing[0][k], nearby.passing[1][k], nearby.passing[2][k]);
-      sum += seenOf(steps, k) * turnedFromNearby(lights[nearby.light], steps, k, ray, passing);
+      sum += seenOf(steps, k) * turnedFromNearby(lightAt(nearby.light), steps, k, ray, passing);
     }
   }
   if (walked == LIGHT_WALK_LIMIT) atomicAdd(counters.boundHit, 1u);

@@ -6,7 +6,7 @@
 
 // Irradiance from a light, shadows counted.
 vec3 receivedFrom(uint number, Surface surface, vec3 p, out vec3 toLight) {
-  LightData light = lights[number];
+  LightData light = lightAt(number);
   vec3 irradiance = lightFrom(light, p, toLight);
   float cosine = dot(surface.normal, toLight);
   if (maxComponent(irradiance) <= 0.0 || cosine <= 0.0 || dot(surface.geometricNormal, toLight) <= 0.0) return vec3(0.0);

@@ -1,15 +1,8 @@
 // What a fragment of a mesh is made of: factors, textures and vertex colour of its glTF material.
+#include "shaders/scene/draws.glsl"
 #include "shaders/scene/pass_through.glsl"
-#include "shaders/shared/bindings.h"
-#include "shaders/shared/geometry.h"
 #include "shaders/shared/view_block.glsl"
 
-layout(std430, binding = STORAGE_DRAWS) readonly buffer Draws {
-  DrawData draws[];
-};
-layout(std430, binding = STORAGE_MATERIALS) readonly buffer Materials {
-  MaterialData materials[];
-};
 layout(binding = TEXTURE_BASE_COLOUR) uniform sampler2D baseColourTexture;
 layout(binding = TEXTURE_TRANSMISSION) uniform sampler2D transmissionTexture;
 
@@ -25,13 +18,18 @@ in vec4 vColour;
 flat in uint vDraw;
 #endif
 
-int materialNumber() {
-  return draws[vDraw].indices.x;
+// See DrawData.
+ivec4 drawIndices() {
+  return drawAt(vDraw).indices;
+}
+
+MaterialData surfaceMaterial() {
+  return materialAt(drawIndices().x);
 }
 
 // Unique among the fragments of one pixel, ascending with (draw, primitive).
 uint fragmentId() {
-  return uint(draws[vDraw].indices.y + gl_PrimitiveID);
+  return uint(drawIndices().y + gl_PrimitiveID);
 }
 
 float fragmentDepth() {
@@ -43,10 +41,10 @@ float fragmentDepth() {
 // the material made of it: the lanes beside a triangle, which they need, may read no storage.
 vec4 materialTexture(sampler2D image, int unit) {
 #ifdef TEXTURES
-  int number = materialNumber();
-  bool second = (materials[number].flags.y >> unit & 1) != 0;
-  vec3 uRow = materials[number].uvTransforms[2 * unit].xyz;
-  vec3 vRow = materials[number].uvTransforms[2 * unit + 1].xyz;
+  MaterialData material = surfaceMaterial();
+  bool second = (material.flags.y >> unit & 1) != 0;
+  vec3 uRow = material.uvTransforms[2 * unit].xyz;
+  vec3 vRow = material.uvTransforms[2 * unit + 1].xyz;
   vec3 uv = vec3(second ? vUv1 : vUv0, 1.0);
   vec4 gradient0 = vec4(dFdx(vUv0), dFdy(vUv0));
   vec4 gradient1 = vec4(dFdx(vUv1), dFdy(vUv1));
@@ -61,13 +59,22 @@ vec4 materialTexture(sampler2D image, int unit) {
 
 // Linear base colour; alpha is coverage: 1 where the material is not BLEND, and cut at the cutoff for MASK.
 vec4 baseColour() {
-  MaterialData material = materials[materialNumber()];
+  MaterialData material = surfaceMaterial();
   vec4 colour = material.baseColour * vColour * materialTexture(baseColourTexture, TEXTURE_BASE_COLOUR);
   if ((material.flags.x & MATERIAL_MASK) != 0) colour.a = colour.a < material.emissive.w ? 0.0 : 1.0;
   else if ((material.flags.x & MATERIAL_BLEND) == 0) colour.a = 1.0;
   return colour;
 }
 
+// Of an opaque surface: whether MASK cuts it out. MASKS is defined when any material does.
+bool isCutOut() {
+#ifdef MASKS
+  return baseColour().a == 0.0;
+#else
+  return false;
+#endif
+}
+
 float transmission() {
-  return materials[materialNumber()].factors.w * materialTexture(transmissionTexture, TEXTURE_TRANSMISSION).r;
+  return surfaceMaterial().factors.w * materialTexture(transmissionTexture, TEXTURE_TRANSMISSION).r;
 }

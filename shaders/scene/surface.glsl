@@ -32,7 +32,7 @@ vec3 shadingNormal(MaterialData material, vec3 geometric) {
 
 // What the material says of a fragment whose base colour is `base`.
 SurfacePoint surfacePoint(vec4 base) {
-  MaterialData material = materials[materialNumber()];
+  MaterialData material = surfaceMaterial();
   vec4 metallicRoughness = materialTexture(metallicRoughnessTexture, TEXTURE_METALLIC_ROUGHNESS);
   SurfacePoint point;
   point.base = base;
@@ -45,7 +45,7 @@ SurfacePoint surfacePoint(vec4 base) {
   point.unlit = (material.flags.x & MATERIAL_UNLIT) != 0;
   point.geometricNormal = geometricNormal();
   point.normal = shadingNormal(material, point.geometricNormal);
-  int object = draws[vDraw].indices.z;
+  int object = drawIndices().z;
   point.coverageObject = uint(gl_SampleMaskIn[0]) | ((object & SHADOW_NOT_SELF) != 0 ? uint(object) << 16 : 0u);
   return point;
 }

@@ -1,11 +1,6 @@
 // Every mesh of every pass: the camera's and the lights'.
-#include "shaders/shared/bindings.h"
-#include "shaders/shared/geometry.h"
+#include "shaders/scene/draws.glsl"
 #include "shaders/shared/view_block.glsl"
-
-layout(std430, binding = STORAGE_DRAWS) readonly buffer Draws {
-  DrawData draws[];
-};
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -26,11 +21,12 @@ flat out uint vDraw;
 invariant gl_Position;  // what is drawn again meets its own depth
 
 void main() {
-  vec4 pWorld = draws[drawNumber].worldFromObject * vec4(position, 1.0);
+  DrawData draw = drawAt(drawNumber);
+  vec4 pWorld = draw.worldFromObject * vec4(position, 1.0);
   vec4 pView = view.viewFromWorld * vec4(pWorld.xyz, 1.0);
   vPositionView = pView.xyz;
-  vNormalWorld = mat3(draws[drawNumber].normalFromObject) * normal;
-  vTangentWorld = vec4(mat3(draws[drawNumber].worldFromObject) * tangent.xyz, tangent.w);
+  vNormalWorld = mat3(draw.normalFromObject) * normal;
+  vTangentWorld = vec4(mat3(draw.worldFromObject) * tangent.xyz, tangent.w);
   vUv0 = uv0;
   vUv1 = uv1;
   vColour = colour;

@@ -9,13 +9,10 @@
 #define UNIFORM_GRIDS 4      // GridData[]
 
 // Storage blocks
-#define STORAGE_DRAWS 0      // DrawData[]
-#define STORAGE_MATERIALS 1  // MaterialData[]
 #define STORAGE_LIST_RUNS 2   // the lists that are built: see lists.h
 #define STORAGE_LIST_HEADS 3  // of linked lists
 #define STORAGE_LIST_SUMS 4   // of the scan; then the cells that are sorted
 #define STORAGE_LIST_COUNTERS 5
-#define STORAGE_LIGHTS 6            // LightData[]
 #define STORAGE_AOVS 7              // AovPixel[]
 #define STORAGE_SMOKE_KNOTS 7       // uvec4[]: see SmokeBlock
 #define STORAGE_ROUTED_MET 7        // uvec2[]: keys of the last fragments that rays have met
@@ -23,7 +20,6 @@
 #define STORAGE_LOOKUPS 9           // of each ray, when they are counted: see resolve.h
 #define STORAGE_STRESS_NUMBERS 8    // of the nodes of a load
 #define STORAGE_FIRE_RAMPS 8        // vec4[]: radiance per metre
-#define STORAGE_SHADOW_FACES 10   // ShadowFace[]
 #define STORAGE_SHADOW_TEXELS 11  // ShadowTexel[] of the light that is built
 #define STORAGE_SHADOW_KNOTS 12   // uint[], four a unit, likewise
 #define STORAGE_VOLUMES 13        // VolumeData[]
@@ -80,7 +76,11 @@
 #define TEXTURE_ROUTED_PAGE 14  // while they are drawn
 #define TEXTURE_OCCLUSION 20  // of ambient light, where surfaces are lit
 #define TEXTURE_SMOKE_KNOTS 21   // of these
-#define TEXTURE_GRIDS 22  // and the units after it
+#define TEXTURE_DRAWS 22         // DrawData[]
+#define TEXTURE_MATERIALS 23     // MaterialData[]
+#define TEXTURE_LIGHTS 24        // LightData[]
+#define TEXTURE_SHADOW_FACES 25  // ShadowFace[]
+#define TEXTURE_GRIDS 26  // and the units after it
 
 // Image units
 #define IMAGE_RESULT 0  // what a pass of images writes

@@ -744,9 +744,9 @@ TEST_F(InterlacedMapsGpu, LinesThatAreMistakenForEachOtherAndPlainMapsFailTheCom
   build(scene, 256);
   shared::ShadowFace face = faceData(maps_.read(0).projection, 0);
   face.texels.x += face.texels.y;  // one line up: odd ones are taken for even ones
-  const gl::Buffer broken(device(), "broken faces", std::span<const shared::ShadowFace>(&face, 1));
+  const gl::Records broken(device(), "broken faces", std::span<const shared::ShadowFace>(&face, 1));
   maps_.bind();
-  broken.bindStorage(STORAGE_SHADOW_FACES);
+  broken.bind(TEXTURE_SHADOW_FACES);
   EXPECT_GT(asked.worstOf(askAsBound(asked.probes, light, 4)), 0.1);
 }
 

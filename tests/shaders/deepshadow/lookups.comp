@@ -24,7 +24,7 @@ void main() {
   int faces = int(probe.light.w);
   vec3 passing;
   if (probe.normal.xyz == vec3(0.0)) {
-    ShadowFace face = shadowFaces[firstFace + faceTowards(faces, point - probe.light.xyz)];
+    ShadowFace face = shadowFaceAt(firstFace + faceTowards(faces, point - probe.light.xyz));
     passing = shadowInSmoke(face, (face.faceFromWorld * vec4(point, 1.0)).xyz, side);
   } else {
     passing = shadowOnSurface(firstFace, faces, probe.light.xyz, point, probe.normal.xyz, 0u, side);
