@@ -112,8 +112,8 @@ class Builder {
 
   size_t cutMarches() const { return cutMarches_; }
 
-  // For comparisons: all faces, one after the other, into linked lists. Returns their nodes.
-  size_t link(std::span<const std::vector<FaceProjection>> facesOfLights, lists::Lists& lists) {
+  // For comparisons: all faces, one after the other, into linked lists.
+  void link(std::span<const std::vector<FaceProjection>> facesOfLights, lists::Lists& lists) {
     const auto forEachFace = [&](const auto& use) {
       for (const std::vector<FaceProjection>& ofLight : facesOfLights) {
         for (const FaceProjection& face : ofLight) {
@@ -123,7 +123,7 @@ class Builder {
       }
       firstCell_ = 0;
     };
-    const size_t nodes = lists.buildLinked(device_, inputs_.linkedNodes, [&](const lists::Pass& pass) {
+    lists.buildLinked(device_, 0, [&](const lists::Pass& pass) {
       forEachFace([&](const FaceProjection& face) { linkSurfaces(face, pass); });
       gl::storageBarrier();
       if (!inputs_.volumes.empty()) forEachFace([&](const FaceProjection& face) { linkSmoke(face, pass); });
@@ -136,7 +136,6 @@ class Builder {
       gl::dispatchLinear(device_.program({"deepshadow/linked_texels.comp"}), texelsOf(face));
     });
     gl::storageBarrier();
-    return nodes;
   }
 
  private:
@@ -403,6 +402,13 @@ size_t countUnits(gl::Device& device, const MapInputs& inputs, double error,
   return static_cast<size_t>(units);
 }
 
+// The buffer that is there, where it has so many bytes and no more than `most`, or a new one.
+void provide(gl::Device& device, gl::Buffer& buffer, const char* label, size_t bytes, size_t most) {
+  if (buffer.bytes() >= bytes && buffer.bytes() <= most) return;
+  buffer = gl::Buffer();  // the old one goes before the new one comes
+  buffer = gl::Buffer(device, label, bytes, gl::Buffer::Whole::Never);
+}
+
 size_t smokeTexelsOf(const std::vector<LightMap>& maps) {
   size_t sum = 0;
   for (const LightMap& map : maps) sum += map.smokeTexels;
@@ -411,7 +417,11 @@ size_t smokeTexelsOf(const std::vector<LightMap>& maps) {
 
 }  // namespace
 
-Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
+Maps::Maps(gl::Device& device, const MapInputs& inputs, Maps former)
+    : plan_(inputs.plan),
+      texels_(std::move(former.texels_)),
+      knots_(std::move(former.knots_)),
+      linked_(std::move(former.linked_)) {
   const auto readable = static_cast<size_t>(device.limits().textureBufferTexels);
   budgetBytes_ = inputs.budget.bytes != 0 ? inputs.budget.bytes : readable * unitBytes;
   const auto excessOf = [&](size_t texels, size_t units) {
@@ -420,9 +430,11 @@ Maps::Maps(gl::Device& device, const MapInputs& inputs) : plan_(inputs.plan) {
                     static_cast<double>(std::max(texels, units)) / static_cast<double>(readable));
   };
   if (inputs.linkedSmokeNodes > 0) {
+    knots_ = gl::Buffer();
     buildLinked(device, inputs, arrange(inputs));
     return;
   }
+  linked_.reset();
   for (bool counting = false;;) {
     const size_t texels = arrange(inputs);
     const size_t smokeTexels = smokeTexelsOf(lightMaps_);
@@ -500,19 +512,20 @@ int Maps::smokeSideOf(const MapInputs& inputs, size_t light) const {
   return side;
 }
 
+void Maps::provideTexels(gl::Device& device, size_t texels) {
+  const size_t bytes = texels * sizeof(shared::ShadowTexel);
+  provide(device, texels_, texelsLabel, bytes, std::max(bytes, std::min(bytes + bytes / 4, budgetBytes_)));
+}
+
 // `units`: what the pool takes by count, 0 where nobody counted. False when it takes more than the budget.
 bool Maps::tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, size_t units) {
-  const size_t texelBytes = texels * sizeof(shared::ShadowTexel);
-  const size_t mostUnits = std::min((budgetBytes_ - texelBytes) / unitBytes,
+  provideTexels(device, texels);
+  const size_t mostUnits = std::min((budgetBytes_ - std::min(texels_.bytes(), budgetBytes_)) / unitBytes,
                                     static_cast<size_t>(device.limits().textureBufferTexels));
   const size_t smokeTexels = smokeTexelsOf(lightMaps_);
   const size_t guess = (texels - smokeTexels) / 4 + smokeTexels * 3 / 4;  // the pool grows
   const size_t firstUnits = units != 0 ? units + units / 10 + (1 << 12) : guess;
-  texels_ = gl::Buffer();
-  knots_ = gl::Buffer();
-  texels_ = gl::Buffer(device, texelsLabel, texelBytes, gl::Buffer::Whole::Never);
-  knots_ =
-      gl::Buffer(device, poolLabel, std::min(firstUnits, mostUnits) * unitBytes, gl::Buffer::Whole::Never);
+  provide(device, knots_, poolLabel, std::min(firstUnits, mostUnits) * unitBytes, mostUnits * unitBytes);
   Builder builder(device, inputs, plan_.error, texels_, knots_, mostUnits);
   for (size_t i = 0; i < lightMaps_.size(); ++i)
     if (!projections_[i].empty() && !builder.build(projections_[i], lightMaps_[i])) return false;
@@ -534,10 +547,11 @@ void Maps::uploadFaces(gl::Device& device) {
 }
 
 void Maps::buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels) {
-  texels_ = gl::Buffer(device, texelsLabel, texels * sizeof(shared::ShadowTexel), gl::Buffer::Whole::Never);
-  linked_.emplace(device, "linked shadow lists", texels, sizeof(shared::ShadowNode),
-                  lists::ListOptions{.strategy = lists::Strategy::SpinLock});
-  linkedNodes_ = Builder(device, inputs, plan_.error, texels_, knots_, 0).link(projections_, *linked_);
+  provideTexels(device, texels);
+  if (!linked_ || linked_->cells() != texels)
+    linked_.emplace(device, "linked shadow lists", texels, sizeof(shared::ShadowNode),
+                    lists::ListOptions{.strategy = lists::Strategy::SpinLock});
+  Builder(device, inputs, plan_.error, texels_, knots_, 0).link(projections_, *linked_);
   uploadFaces(device);
   texelsView_ = gl::BufferTexture(device, texels_, gl::BufferFormat::RGB32UI);
 }

@@ -52,7 +52,6 @@ struct MapInputs {
   // texel (deepshadow/walk.glsl; Lindbeck 2015, 2.2); 0: runs of knots. Error bound, budgets and the flags of
   // objects do not hold then.
   int linkedSmokeNodes = 0;
-  size_t linkedNodes = 0;  // that the pool of linked lists has at first
 };
 
 struct LightMap {
@@ -71,13 +70,16 @@ struct LightMap {
 
 class Maps {
  public:
+  Maps() = default;
   // Builds the maps that the plan asks for, or, where they are more than the budget, of a coarser plan that
   // fits (map_plan.h): what they take is counted beforehand, at an eighth of the resolution. Costs 12 bytes a
   // texel and 8 a knot of a texel whose smoke or surfaces are grey, 16 a knot of others, of smoke half of
   // these where its bound allows that; while it builds, 8 bytes a texel of a window and 16 a translucent
   // surface in it, more with some strategies (lists/lists_gpu.h). Throws Memory when no plan fits that the
-  // budget allows, or one texel's lists are over theirs.
-  Maps(gl::Device& device, const MapInputs& inputs);
+  // budget allows, or one texel's lists are over theirs. Memory of `former` maps, as of the frame before, is
+  // used again.
+  Maps(gl::Device& device, const MapInputs& inputs, Maps former);
+  Maps(gl::Device& device, const MapInputs& inputs) : Maps(device, inputs, Maps()) {}
 
   const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights
   const MapPlan& plan() const { return plan_; }                       // what they were built with
@@ -91,7 +93,6 @@ class Maps {
   size_t cutMarches() const { return cutMarches_; }
   // For shaders that include shaders/deepshadow/lookup.glsl.
   void bind() const;
-  size_t linkedNodes() const { return linkedNodes_; }  // of linked lists
   // A light's map, read back, with the smoke as it is looked up in the middle of each texel.
   ReadMap read(size_t light) const;
   // At most, of what read() gives.
@@ -101,6 +102,7 @@ class Maps {
   size_t arrange(const MapInputs& inputs);
   int smokeSideOf(const MapInputs& inputs, size_t light) const;
   bool tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, size_t units);
+  void provideTexels(gl::Device& device, size_t texels);
   void buildLinked(gl::Device& device, const MapInputs& inputs, size_t texels);
   void uploadFaces(gl::Device& device);
 
@@ -117,7 +119,6 @@ class Maps {
   gl::BufferTexture knotsView_;
   size_t cutMarches_ = 0;
   std::optional<lists::Lists> linked_;
-  size_t linkedNodes_ = 0;
 };
 
 }  // namespace sfumato::deepshadow

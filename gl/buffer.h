@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gl/device.h"
@@ -27,7 +28,7 @@ class Buffer {
       : Buffer(device, std::move(label), values.size_bytes()) {
     write(std::as_bytes(values));
   }
-  Buffer(Buffer&& other) noexcept = default;
+  Buffer(Buffer&& other) noexcept { *this = std::move(other); }
   Buffer& operator=(Buffer&& other) noexcept;
   ~Buffer();
 

@@ -83,6 +83,7 @@ class Lists {
   void bind(unsigned runs, unsigned keys, unsigned payloads) const;
 
   const std::string& label() const { return label_; }
+  size_t cells() const { return cells_; }  // at most
   size_t payloadBytes() const { return payloadBytes_; }
 
   // Read back, for checks on the CPU.

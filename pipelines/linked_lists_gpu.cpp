@@ -180,7 +180,7 @@ void LinkedListsPipeline::prepare(const scene::Camera& camera, int height, const
 Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int height, const Quality& quality,
                                   const FrameOptions& options) {
   const FrameView view = viewOf(scene_.scene(), camera, width, height);
-  const deepshadow::Maps shadows = scene_.buildShadows(view, quality, linkedNodes_);
+  shadows_ = scene_.buildShadows(view, quality, std::move(shadows_));
   Frame frame{.radiance = image::Image(width, height, 3), .aovs = emptyImages(options.aovs, width, height)};
   const DeepLimits deepLimits = withinMemory(options.deepLimits);
   if (options.deep) {
@@ -188,10 +188,10 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     frame.deep->view = deepView(scene::cameraView(camera, width, height));
   }
   for (const size_t light : options.deepShadows)
-    frame.deepShadows.push_back(deepShadow(shadows, light, deepLimits));
+    frame.deepShadows.push_back(deepShadow(shadows_, light, deepLimits));
   const auto occlusion = scene_.drawOcclusion(view, quality);
   const TileInputs inputs{scene_,
-                          shadows,
+                          shadows_,
                           quality,
                           occlusion ? &*occlusion : nullptr,
                           view.params,
@@ -205,10 +205,9 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     painter.draw(tile);
     options.onTile();
   }
-  frame.statistics.shadows = shadows.lights();
-  frame.statistics.shadowMaps = figuresOf(shadows);
-  linkedNodes_ = std::max(linkedNodes_, shadows.linkedNodes());
-  frame.statistics.cutWalks += shadows.cutMarches();
+  frame.statistics.shadows = shadows_.lights();
+  frame.statistics.shadowMaps = figuresOf(shadows_);
+  frame.statistics.cutWalks += shadows_.cutMarches();
   frame.statistics.triangles = scene_.geometry().triangles();
   return frame;
 }

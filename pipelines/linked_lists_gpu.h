@@ -25,7 +25,7 @@ class LinkedListsPipeline : public Pipeline {
                const FrameOptions& options = {}) override;
 
  private:
-  size_t linkedNodes_ = 0;  // of frames whose lists stayed linked, at most: how large the next pool is
+  deepshadow::Maps shadows_;  // of the last frame
 };
 
 }  // namespace sfumato::pipelines

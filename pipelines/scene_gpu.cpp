@@ -143,20 +143,21 @@ ShadowInputs SceneGpu::shadowInputs(const FrameView& view, const Quality& qualit
 }
 
 deepshadow::Maps SceneGpu::buildShadows(const FrameView& view, const Quality& quality,
-                                        size_t linkedNodes) const {
+                                        deepshadow::Maps former) const {
   const Profiler::Scope time(device_.profiler(), "deep shadow maps");
   const ShadowInputs inputs = shadowInputs(view, quality);
-  return deepshadow::Maps(device_, {.lights = scene_.lights,
-                                    .casters = inputs.casters,
-                                    .volumes = volumes_,
-                                    .receivers = inputs.receivers,
-                                    .castingPoints = inputs.castingPoints,
-                                    .plan = {inputs.resolutions, quality.shadowError},
-                                    .budget = inputs.budget,
-                                    .stepVoxels = quality.stepVoxels,
-                                    .lists = quality.lists,
-                                    .linkedSmokeNodes = quality.walkedSmokeNodes,
-                                    .linkedNodes = linkedNodes});
+  return deepshadow::Maps(device_,
+                          {.lights = scene_.lights,
+                           .casters = inputs.casters,
+                           .volumes = volumes_,
+                           .receivers = inputs.receivers,
+                           .castingPoints = inputs.castingPoints,
+                           .plan = {inputs.resolutions, quality.shadowError},
+                           .budget = inputs.budget,
+                           .stepVoxels = quality.stepVoxels,
+                           .lists = quality.lists,
+                           .linkedSmokeNodes = quality.walkedSmokeNodes},
+                          std::move(former));
 }
 
 ShadowFigures figuresOf(const deepshadow::Maps& shadows) {

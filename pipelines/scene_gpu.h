@@ -71,8 +71,9 @@ class SceneGpu {
   // Of the whole image at once, from a G-buffer of its own, where there is any.
   std::optional<AmbientOcclusion> drawOcclusion(const FrameView& view, const Quality& quality) const;
   ShadowInputs shadowInputs(const FrameView& view, const Quality& quality) const;
-  // `linkedNodes`: see deepshadow::MapInputs.
-  deepshadow::Maps buildShadows(const FrameView& view, const Quality& quality, size_t linkedNodes = 0) const;
+  // `former`: see deepshadow::Maps.
+  deepshadow::Maps buildShadows(const FrameView& view, const Quality& quality,
+                                deepshadow::Maps former = {}) const;
 
  private:
   gl::Device& device_;

@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <deque>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -155,18 +156,20 @@ class Bench {
 
   void run(const std::string& test, const std::string& size, const World& world, int shadowResolution,
            const std::vector<Way>& ways) {
-    pipelines::LinkedListsPipeline pipeline(device_, world.scene, world.media);
+    std::deque<pipelines::LinkedListsPipeline> pipelines;  // of each way, as each keeps memory for its own
+    for (size_t way = 0; way < ways.size(); ++way) pipelines.emplace_back(device_, world.scene, world.media);
     std::vector<std::vector<Times>> times(ways.size());
     std::vector<image::Image> images(ways.size());
     image::Image reference;
     if (!world.media.empty())
-      reference =
-          pipeline.render(world.scene.cameras.at(0), width, height, finest(shadowResolution)).radiance;
+      reference = pipelines::LinkedListsPipeline(device_, world.scene, world.media)
+                      .render(world.scene.cameras.at(0), width, height, finest(shadowResolution))
+                      .radiance;
     for (int i = 0; i <= frames_; ++i) {
       for (size_t way = 0; way < ways.size(); ++way) {
         const auto draw = [&] {
           images[way] =
-              pipeline
+              pipelines[way]
                   .render(world.scene.cameras.at(0), width, height, qualityOf(ways[way], shadowResolution))
                   .radiance;
         };
