@@ -198,6 +198,48 @@ float opaqueDepthFrom(ShadowFace face, ivec2 texel, float depth, vec2 offset) {
   return inverse > 0.0 ? 1.0 / inverse : 3e38;
 }
 
+// Texels that a plane goes deeper in the width of a few, where it is seen edge-on.
+const float EDGE_ON = 512.0;
+
+// A texel as a point on a surface asks it.
+struct SurfaceTap {
+  ivec2 at;
+  float share;
+  float depth;  // where the ray through its centre meets the point's plane, or a little before
+  float slack;  // by how much nearer surfaces may be without shadowing the point for sure
+  ShadowTexel texel;
+  vec3 ownTau;  // see takeOwnSteps
+};
+
+// The point on a surface, in the view space of the face that sees it.
+struct SurfacePlace {
+  vec3 p;
+  vec3 normal;
+  float depth;
+  vec2 place;        // in texels
+  float texelWidth;  // m, there
+  float rounding;    // m, of depths
+  uint object;
+};
+
+SurfaceTap surfaceTap(ShadowFace face, SurfacePlace point, Taps taps, int i, int side) {
+  ivec2 offset = tapOffset(i, side);
+  SurfaceTap tap;
+  tap.at = taps.first + offset;
+  tap.share = taps.x[offset.x] * taps.y[offset.y];
+  vec2 xy = (vec2(tap.at) + 0.5 - face.projection.zw) / face.projection.xy;
+  // The plane dot(n, x) = dot(n, p), met by x = (xy depth, -depth) or x = (xy, -depth). Seen edge-on it is met far
+  // away or nowhere; little light falls on it then, and the point's own depth will do.
+  vec3 n = point.normal;
+  tap.depth = face.texels.z != 0 ? dot(n, point.p) / dot(n, vec3(xy, -1.0)) : (dot(n.xy, xy) - dot(n, point.p)) / n.z;
+  if (!(abs(tap.depth - point.depth) < EDGE_ON * point.texelWidth)) tap.depth = point.depth;
+  tap.slack = point.texelWidth + 0.3 * abs(tap.depth - point.depth);
+  tap.depth -= point.rounding;
+  tap.texel = shadowTexel(texelNumber(face, tap.at));
+  tap.ownTau = takeOwnSteps(tap.texel, tap.depth, tap.slack, point.object);
+  return tap;
+}
+
 // Of a point on a surface of `object` (see PackedSurface) with the plane normal `normal`: the texels around it (`side`: see
 // Taps), each asked at the depth at which the ray through its centre meets that plane, so that a flat surface neither shadows itself
 // nor leaks, whatever the angle and the resolution. What lies before the plane by less than a texel or two is where a texel
@@ -207,49 +249,43 @@ float opaqueDepthFrom(ShadowFace face, ivec2 texel, float depth, vec2 offset) {
 vec3 shadowOnSurface(int firstFace, int faces, vec3 lightPosition, vec3 pWorld, vec3 normal, uint object,
                      int side) {
   ShadowFace face = shadowFaceAt(firstFace + faceTowards(faces, pWorld - lightPosition));
-  vec3 p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
-  vec3 n = mat3(face.faceFromWorld) * normal;
+  SurfacePlace point;
+  point.p = (face.faceFromWorld * vec4(pWorld, 1.0)).xyz;
+  point.normal = mat3(face.faceFromWorld) * normal;
   bool perspective = face.texels.z != 0;
-  float ownDepth = -p.z;
-  vec2 place = (perspective ? p.xy / max(ownDepth, 1e-20) : p.xy) * face.projection.xy + face.projection.zw;
-  float texelWidth = (perspective ? ownDepth : 1.0) / min(face.projection.x, face.projection.y);
-  float rounding = 1e-4 * abs(ownDepth) + 1e-3 * texelWidth;
-  Taps taps = tapsAround(place, side);
+  point.depth = -point.p.z;
+  point.place = (perspective ? point.p.xy / max(point.depth, 1e-20) : point.p.xy) * face.projection.xy + face.projection.zw;
+  point.texelWidth = (perspective ? point.depth : 1.0) / min(face.projection.x, face.projection.y);
+  point.rounding = 1e-4 * abs(point.depth) + 1e-3 * point.texelWidth;
+  point.object = object;
+  Taps taps = tapsAround(point.place, side);
   vec3 sum = vec3(0.0);
   float told = 0.0;
   vec3 doubtful = vec3(0.0);
+  uint near = 0u;
   for (int i = 0; i < side * side; ++i) {
-    ivec2 offset = tapOffset(i, side);
-    float share = taps.x[offset.x] * taps.y[offset.y];
-    ivec2 at = taps.first + offset;
-    vec2 xy = (vec2(at) + 0.5 - face.projection.zw) / face.projection.xy;
-    // The plane dot(n, x) = dot(n, p), met by x = (xy depth, -depth) or x = (xy, -depth). Seen edge-on it is met far
-    // away or nowhere; little light falls on it then, and the point's own depth will do.
-    float depth = perspective ? dot(n, p) / dot(n, vec3(xy, -1.0)) : (dot(n.xy, xy) - dot(n, p)) / n.z;
-    if (!(abs(depth - ownDepth) < 512.0 * texelWidth)) depth = ownDepth;
-    float slack = texelWidth + 0.3 * abs(depth - ownDepth);
-    depth -= rounding;
-    ShadowTexel texel = shadowTexel(texelNumber(face, at));
-    vec3 ownTau = takeOwnSteps(texel, depth, slack, object);
-    bool lit = depth <= texel.opaqueDepth;
-    bool blocked = min(depth, ownDepth) - slack > texel.opaqueDepth &&
-                   opaqueDepthFrom(face, at, texel.opaqueDepth, vec2(at) + 0.5 - place) < ownDepth - slack;
+    SurfaceTap tap = surfaceTap(face, point, taps, i, side);
+    float opaque = tap.texel.opaqueDepth;
+    bool lit = tap.depth <= opaque;
+    float before = min(tap.depth, point.depth) - tap.slack - opaque;
+    bool blocked = before > EDGE_ON * point.texelWidth;
     // At a grazing angle the plane is met far on the light's side of the point: with something else in between, the
     // texel tells only where no other does.
-    if (lit && texel.opaqueDepth > depth + 4.0 * rounding && texel.opaqueDepth < ownDepth - texelWidth) share *= 1e-6;
-    if (blocked) {
-      told += share;
-    } else {
-      vec3 through = share * runTransmittance(texel, min(depth, texel.opaqueDepth) - slack, ownTau);
-      if (lit) {
-        sum += through;
-        told += share;
-      } else {
-        doubtful += through;
-      }
-    }
+    if (lit && opaque > tap.depth + 4.0 * point.rounding && opaque < point.depth - point.texelWidth) tap.share *= 1e-6;
+    vec3 through = tap.share * runTransmittance(tap.texel, min(tap.depth, opaque) - tap.slack, tap.ownTau);
+    if (lit || blocked) told += tap.share;
+    if (lit) sum += through;
+    else doubtful += through;
+    if (before > 0.0 && !blocked) near |= 1u << i;
+  }
+  // Apart, because some drivers run what few texels need for all of them.
+  while (near != 0u) {
+    SurfaceTap tap = surfaceTap(face, point, taps, findLSB(near), side);
+    near &= near - 1u;
+    if (opaqueDepthFrom(face, tap.at, tap.texel.opaqueDepth, vec2(tap.at) + 0.5 - point.place) < point.depth - tap.slack)
+      told += tap.share;
   }
   vec3 through = told > 0.0 ? sum / told : doubtful;
-  bool smoky = all(greaterThan(place, face.smoke.xy)) && all(lessThan(place, face.smoke.zw));
-  return smoky ? through * smokeTransmittance(face, place, ownDepth - rounding) : through;
+  bool smoky = all(greaterThan(point.place, face.smoke.xy)) && all(lessThan(point.place, face.smoke.zw));
+  return smoky ? through * smokeTransmittance(face, point.place, point.depth - point.rounding) : through;
 }
