@@ -69,25 +69,27 @@ std::string statisticsText(gl::Device& device, const pipelines::FrameStatistics&
                      {"cut_walks", statistics.cutWalks},
                      {"lookups", toJson(statistics.lookups)}};
   result["lists"] = {{"surfaces", toJson(statistics.surfaces, fromBounds.surfaces)},
-                     {"lights", toJson(statistics.lights, fromBounds.lights)}};
-  result["lists"]["shadows"] = nlohmann::json::array();
-  for (size_t i = 0; i < statistics.shadows.size(); ++i) {
-    const deepshadow::LightMap& map = statistics.shadows[i];
-    nlohmann::json light = toJson(map.lists, fromBounds.shadows[i]);
-    light["faces"] = map.faces;
-    light["texels"] = map.texels;
-    light["smoke_texels"] = map.smokeTexels;
-    light["resolution"] = map.resolution;
-    light["knot_bytes"] = map.knotBytes;
-    result["lists"]["shadows"].push_back(light);
-  }
+                     {"lights", toJson(statistics.lights, fromBounds.lights)},
+                     {"shadows", toJson(statistics.shadowLists, fromBounds.allShadows())}};
   const pipelines::ShadowFigures& maps = statistics.shadowMaps;
   result["shadow_maps"] = {{"resolutions", maps.resolutions},
                            {"error", maps.error},
                            {"lowered", maps.lowered},
                            {"bytes", maps.bytes},
                            {"predicted_bytes", maps.predictedBytes},
-                           {"budget_bytes", maps.budgetBytes}};
+                           {"budget_bytes", maps.budgetBytes},
+                           {"lights", nlohmann::json::array()}};
+  for (size_t i = 0; i < statistics.shadows.size(); ++i) {
+    const deepshadow::LightMap& map = statistics.shadows[i];
+    result["shadow_maps"]["lights"].push_back({{"faces", map.faces},
+                                               {"resolution", map.resolution},
+                                               {"texels", map.texels},
+                                               {"smoke_texels", map.smokeTexels},
+                                               {"knot_bytes", map.knotBytes},
+                                               {"nodes_from_bounds", fromBounds.shadows[i].nodes},
+                                               {"nodes_stored", map.nodes},
+                                               {"nodes_hidden", map.hidden}});
+  }
   result["memory"] = {{"peak_bytes", device.memory().peakBytes()},
                       {"program_bytes", device.programBytes()},
                       {"peak_bytes_by_label", device.memory().peakBytesByLabel()}};

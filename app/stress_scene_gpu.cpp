@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 #include "app/shot.h"
 #include "base/error.h"
@@ -107,17 +109,15 @@ StressRun runOf(const ListKind& kind, const lists::ListStatistics& statistics, c
 
 std::vector<StressRun> runsOf(const pipelines::FrameStatistics& statistics, const Audit& audit,
                               const pipelines::ListPrediction& fromBounds) {
-  lists::ListStatistics shadows;
-  for (const deepshadow::LightMap& map : statistics.shadows) shadows += map.lists;
-  return {runOf(shadowLists, shadows, audit, fromBounds.allShadows()),
+  return {runOf(shadowLists, statistics.shadowLists, audit, fromBounds.allShadows()),
           runOf(lightLists, statistics.lights, audit, fromBounds.lights),
           runOf(surfaceLists, statistics.surfaces, audit, fromBounds.surfaces)};
 }
 
-// The nodes of each cell, rows from the top; nothing where not all of them were built at once.
+// The nodes of the first width x height cells, rows from the top; nothing where they were not built at once.
 LengthGrid gridOf(const Audit& audit, const ListKind& kind, size_t width, size_t height) {
   const auto found = audit.audited().find(kind.label);
-  if (found == audit.audited().end() || found->second.lengths.size() != width * height) return {};
+  if (found == audit.audited().end() || found->second.lengths.size() < width * height) return {};
   LengthGrid grid{width, height, {}};
   for (size_t y = height; y-- > 0;)
     grid.lengths.insert(grid.lengths.end(), found->second.lengths.begin() + static_cast<long>(y * width),
@@ -193,7 +193,7 @@ class SceneStress {
         runsOf(audited.statistics, audit,
                pipelines::predictLists(shot_.scene, shot_.media, shot_.camera, options_.shot.width,
                                        options_.shot.height, shot_.quality));
-    if (!first_) setGrids(audit, runs);
+    if (!first_) setGrids(audit, audited.statistics.shadows, runs);
     size_t different = differentFromFirst(audited.radiance);
     for (int i = 0; i < options_.repeat; ++i) {
       different += differentFromFirst(draw(kind).radiance);
@@ -216,16 +216,17 @@ class SceneStress {
   }
 
   // One of each kind and number of lights is enough: all strategies make the same lists.
-  void setGrids(const Audit& audit, std::vector<StressRun>& runs) const {
+  void setGrids(const Audit& audit, std::span<const deepshadow::LightMap> maps,
+                std::vector<StressRun>& runs) const {
     const auto width = static_cast<size_t>(options_.shot.width);
     const auto height = static_cast<size_t>(options_.shot.height);
-    const auto side = [&](const ListKind& kind) {
-      const auto found = audit.audited().find(kind.label);
-      return found == audit.audited().end()
-                 ? 0
-                 : static_cast<size_t>(std::lround(std::sqrt(found->second.lengths.size())));
-    };
-    runs[0].grid = gridOf(audit, shadowLists, side(shadowLists), side(shadowLists));  // the first face
+    const auto map = std::find_if(maps.begin(), maps.end(),
+                                  [](const deepshadow::LightMap& light) { return light.faces > 0; });
+    if (map != maps.end()) {
+      const double faceTexels = static_cast<double>(map->texels) / map->faces;
+      const auto side = static_cast<size_t>(std::lround(std::sqrt(faceTexels)));
+      runs[0].grid = gridOf(audit, shadowLists, side, side);  // the first face
+    }
     runs[1].grid = gridOf(audit, lightLists, static_cast<size_t>(lights::cellsAlong(options_.shot.width)),
                           static_cast<size_t>(lights::cellsAlong(options_.shot.height)));
     runs[2].grid = gridOf(audit, surfaceLists, width, height);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "gl/commands.h"
@@ -42,7 +42,35 @@ size_t allTexelsOf(const FaceProjection& face) {
   return texelsOf(face) + squared(face.smokeSide);
 }
 
-// Rows that hold some cells of a face: what a scissor lets through.
+// A face, and where its texels go.
+struct PlacedFace {
+  const FaceProjection& face;
+  LightMap* map = nullptr;
+  size_t firstTexel = 0;
+};
+
+// Those that stackedFaces() puts together; the first one's texels are the first cells of their lists.
+using Stack = std::span<const PlacedFace>;
+
+// The cells of a stack's face, by its number.
+lists::Window cellsOf(Stack stack, size_t number) {
+  const size_t texels = texelsOf(stack.front().face);
+  return {number * texels, texels};
+}
+
+lists::Window intersection(const lists::Window& a, const lists::Window& b) {
+  const size_t first = std::max(a.firstCell, b.firstCell);
+  const size_t end = std::min(a.firstCell + a.cells, b.firstCell + b.cells);
+  return {first, end > first ? end - first : 0};
+}
+
+// Where in the stack a face is drawn: x, y, width, height.
+glm::ivec4 areaOf(Stack stack, size_t number) {
+  const int side = stack.front().face.surfaceSide();
+  return {0, static_cast<int>(number) * side, side, side};
+}
+
+// Rows that hold some cells: what a scissor lets through.
 glm::ivec4 rowsOf(const lists::Window& window, int side) {
   const auto width = static_cast<size_t>(side);
   const size_t first = window.firstCell / width;
@@ -71,24 +99,26 @@ class Builder {
         passBlock_(device, "shadow pass", sizeof(shared::ShadowPassParams)),
         counters_(device, "shadow counters", sizeof(shared::ShadowCounters)) {}
 
-  // Builds one light's map into its texels. Faces are built in windows, so that the lists take the same
-  // memory at any resolution. False when the pool has no room for it.
-  bool build(const std::vector<FaceProjection>& faces, LightMap& map) {
-    map.firstUnit = firstUnit_;
-    size_t firstTexel = map.firstTexel;
+  // Builds the faces of a stack into their texels. Where it is larger, in windows, so that the lists take the
+  // same memory at any resolution. False when the pool has no room for it.
+  bool build(Stack stack) {
     bool fits = true;
-    for (const FaceProjection& face : faces) {
-      map.lists += drawFace(face, [&](const lists::Window& window) {
-        fits = fits && writeKnots({face, firstTexel, window}, map);
+    draw(stack, [&](const lists::Window& window) {
+      forFaces(stack, window, [&](size_t number, const lists::Window& cells) {
+        LightMap& map = *stack[number].map;
+        if (inputs_.casters.listed)
+          map.nodes += lists_->nodesOf({cells.firstCell - window.firstCell, cells.cells});
+        fits = fits && writeKnots({stack, number, cells, window.firstCell}, map);
       });
-      forSmoke(face, [&](const lists::Window& window) {
+    });
+    for (size_t number = 0; number < stack.size(); ++number) {
+      LightMap& map = *stack[number].map;
+      forSmoke(stack[number].face, [&](const lists::Window& cells) {
         const size_t before = map.knotBytes;
-        fits = fits && writeKnots({face, firstTexel + texelsOf(face), window, true}, map);
+        fits = fits && writeKnots({stack, number, cells, 0, true}, map);
         map.smokeKnots += (map.knotBytes - before) / unitBytes * knotsInUnit;
       });
-      firstTexel += allTexelsOf(face);
     }
-    map.units = firstUnit_ - map.firstUnit;
     return fits;
   }
 
@@ -100,17 +130,20 @@ class Builder {
   // Units that the knots of a face take. Its texels are those of `texels` from the first on, and useless.
   Units count(const FaceProjection& face) {
     const size_t room = knots_.bytes() / unitBytes;
+    const PlacedFace placed{face};
+    const Stack stack(&placed, 1);
     Units units;
-    drawFace(face, [&](const lists::Window& window) {
-      units.surfaces += write({face, 0, window}, SHADOW_ALL, room).units;
+    draw(stack, [&](const lists::Window& window) {
+      units.surfaces += write({stack, 0, window, window.firstCell}, SHADOW_ALL, room).units;
     });
     forSmoke(face, [&](const lists::Window& window) {
-      units.smoke += write({face, 0, window, true}, SHADOW_ALL, room).units;
+      units.smoke += write({stack, 0, window, 0, true}, SHADOW_ALL, room).units;
     });
     return units;
   }
 
   size_t cutMarches() const { return cutMarches_; }
+  const lists::ListStatistics& lists() const { return listStatistics_; }
 
   // For comparisons: all faces, one after the other, into linked lists.
   void link(std::span<const std::vector<FaceProjection>> facesOfLights, lists::Lists& lists) {
@@ -141,10 +174,19 @@ class Builder {
  private:
   // Texels of a face whose knots are written.
   struct FaceWindow {
-    const FaceProjection& face;
-    size_t firstTexel;  // of cell 0
-    lists::Window cells;
+    Stack stack;
+    size_t number;        // of the face in it
+    lists::Window cells;  // of the stack, or of the face's smoke
+    size_t firstRun;      // cell of the stack that the first of the runs is of
     bool ofSmoke = false;
+
+    const FaceProjection& face() const { return stack[number].face; }
+    // Of the first cell.
+    size_t firstTexel() const {
+      const size_t ofFace = stack[number].firstTexel;
+      return ofSmoke ? ofFace + texelsOf(face()) + cells.firstCell
+                     : ofFace + cells.firstCell - cellsOf(stack, number).firstCell;
+    }
   };
 
   static gl::ShaderDefines surfaceDefines(const Casters& casters) {
@@ -155,17 +197,23 @@ class Builder {
     return defines;
   }
 
-  // The opaque depth of a face, then its lists window by window, for `consume`.
-  lists::ListStatistics drawFace(const FaceProjection& face,
-                                 const std::function<void(const lists::Window&)>& consume) {
-    drawOpaque(face);
-    if (inputs_.casters.listed) {
-      prepareLists(texelsOf(face));
-      return lists_->buildWindows(
-          device_, [&](const lists::Pass& pass) { store(face, pass); }, consume, windowTexels);
+  // The opaque depth of a stack, then its lists window by window, for `consume`.
+  void draw(Stack stack, const std::function<void(const lists::Window&)>& consume) {
+    drawOpaque(stack);
+    const size_t cells = stack.size() * texelsOf(stack.front().face);
+    if (!inputs_.casters.listed) return forWindows(cells, consume);
+    prepareLists(cells);
+    listStatistics_ += lists_->buildWindows(
+        device_, [&](const lists::Pass& pass) { store(stack, pass); }, consume, windowTexels);
+  }
+
+  // use(number, cells) for each face that has cells in a window of the stack, which are these.
+  static void forFaces(Stack stack, const lists::Window& window,
+                       const std::function<void(size_t, const lists::Window&)>& use) {
+    for (size_t number = 0; number < stack.size(); ++number) {
+      const lists::Window cells = intersection(cellsOf(stack, number), window);
+      if (cells.cells > 0) use(number, cells);
     }
-    forWindows(texelsOf(face), consume);
-    return {};
   }
 
   static void forWindows(size_t texels, const std::function<void(const lists::Window&)>& consume) {
@@ -187,46 +235,53 @@ class Builder {
     viewBlock_.bindUniform(UNIFORM_VIEW);
   }
 
-  // Opaque depth of a face, kept for the passes that follow.
-  void drawOpaque(const FaceProjection& face) {
+  // Opaque depth of a stack, kept for the passes that follow.
+  void drawOpaque(Stack stack) {
     const gl::Profiler::Scope time(device_.profiler(), "opaque depth");
-    const int side = face.surfaceSide();
-    if (depth_.size().x != side)
+    const int side = stack.front().face.surfaceSide();
+    const int lines = side * static_cast<int>(stack.size());
+    if (depth_.size().x != side || depth_.size().y < lines)
       depth_ =
-          gl::Texture(device_, "shadow opaque depth", {.format = gl::Format::R32F, .size = {side, side, 1}});
+          gl::Texture(device_, "shadow opaque depth", {.format = gl::Format::R32F, .size = {side, lines, 1}});
     const gl::Texture* colour = &depth_;
     const gl::Framebuffer target({&colour, 1}, nullptr);
     target.clearColour(0, glm::vec4(static_cast<float>(NOTHING_OPAQUE)));
     if (!inputs_.casters.opaque) return;
-    useFace(face);
-    gl::setDrawState({.program = &opaque_,
-                      .target = &target,
-                      .viewport = {0, 0, side, side},
-                      .depthClamp = true,
-                      .blend = gl::Blend::Minimum});
-    inputs_.casters.opaque();
+    for (size_t number = 0; number < stack.size(); ++number) {
+      useFace(stack[number].face);
+      gl::setDrawState({.program = &opaque_,
+                        .target = &target,
+                        .viewport = areaOf(stack, number),
+                        .scissor = areaOf(stack, number),
+                        .depthClamp = true,
+                        .blend = gl::Blend::Minimum});
+      inputs_.casters.opaque();
+      gl::flush();  // it is drawn while the next one is prepared
+    }
   }
 
   void prepareLists(size_t cells) {
-    if (cells == listCells_) return;
-    lists_.reset();
-    lists_ = std::make_unique<lists::Lists>(device_, "deep shadow lists", cells, sizeof(shared::ShadowNode),
-                                            inputs_.lists);
-    listCells_ = cells;
+    if (!lists_)
+      lists_.emplace(device_, "deep shadow lists", cells, sizeof(shared::ShadowNode), inputs_.lists);
+    lists_->setCells(cells);
   }
 
-  // The surfaces of a face into the lists.
-  void store(const FaceProjection& face, const lists::Pass& pass) {
-    useFace(face);
+  // The surfaces of a stack into the lists.
+  void store(Stack stack, const lists::Pass& pass) {
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
-    const gl::Framebuffer noTarget({face.side, face.side});
-    gl::setDrawState({.program = &device_.program({"scene/surface.vert", "deepshadow/listed.frag"},
-                                                  gl::joined(inputs_.casters.defines, pass.defines)),
-                      .target = &noTarget,
-                      .viewport = {0, 0, face.side, face.side},
-                      .scissor = rowsOf(pass.window, face.side),
-                      .depthClamp = true});
-    inputs_.casters.listed();
+    const int side = stack.front().face.surfaceSide();
+    const gl::Framebuffer noTarget({side, side * static_cast<int>(stack.size())});
+    forFaces(stack, pass.window, [&](size_t number, const lists::Window& cells) {
+      useFace(stack[number].face);
+      gl::setDrawState({.program = &device_.program({"scene/surface.vert", "deepshadow/listed.frag"},
+                                                    gl::joined(inputs_.casters.defines, pass.defines)),
+                        .target = &noTarget,
+                        .viewport = areaOf(stack, number),
+                        .scissor = rowsOf(cells, side),
+                        .depthClamp = true});
+      inputs_.casters.listed();
+      gl::flush();
+    });
   }
 
   // The surfaces of a face into linked lists.
@@ -275,9 +330,12 @@ class Builder {
                    "deep shadow map: one texel has more knots than the {} that this device holds in one "
                    "block: remove some surfaces",
                    room);
+      if (map.units == 0) map.firstUnit = firstUnit_;
       firstUnit_ = alignedUp(firstUnit_ + written, unitAlignment);
+      map.units = firstUnit_ - map.firstUnit;
       map.knotBytes += written * unitBytes;
-      map.lists.hidden += counted.hidden;
+      map.hidden += counted.hidden;
+      listStatistics_.hidden += counted.hidden;
       cutMarches_ += counted.boundHit;
       wanted = counted.unplaced;
     }
@@ -288,7 +346,7 @@ class Builder {
   shared::ShadowCounters write(const FaceWindow& window, int which, size_t room) {
     const gl::Profiler::Scope time(device_.profiler(), window.ofSmoke ? "smoke" : "knots");
     counters_.clear();
-    useFace(window.face, window.ofSmoke ? window.face.smokeSide : window.face.surfaceSide());
+    useFace(window.face(), window.ofSmoke ? window.face().smokeSide : window.face().surfaceSide());
     useWindow(window, which);
     depth_.bind(TEXTURE_OPAQUE_DEPTH);
     if (window.ofSmoke)
@@ -331,13 +389,14 @@ class Builder {
 
   // The window's texels, and which of them are written.
   void useWindow(const FaceWindow& window, int which) {
-    const size_t firstTexel = window.firstTexel + window.cells.firstCell;
+    const size_t firstTexel = window.firstTexel();
     const size_t bound = firstTexel / texelAlignment * texelAlignment;
     shared::ShadowPassParams params{};
     params.march = {static_cast<float>(inputs_.stepVoxels), static_cast<float>(error_), 0.f, 0.f};
-    params.cells = {static_cast<int>(window.cells.firstCell), static_cast<int>(window.cells.cells), 0,
+    params.cells = {static_cast<int>(window.cells.firstCell), static_cast<int>(window.cells.cells),
+                    static_cast<int>(window.cells.firstCell - window.firstRun),
                     static_cast<int>(firstTexel - bound)};
-    params.units = {static_cast<int>(firstUnit_), which, 0, 0};
+    params.units = {static_cast<int>(firstUnit_), which, areaOf(window.stack, window.number).y, 0};
     passBlock_.writeValue(params);
     passBlock_.bindUniform(UNIFORM_PASS);
     texels_.bindStorageRange(STORAGE_SHADOW_TEXELS, bound * sizeof(shared::ShadowTexel),
@@ -356,11 +415,11 @@ class Builder {
   gl::Buffer viewBlock_;
   gl::Buffer passBlock_;
   gl::Buffer counters_;
-  gl::Texture depth_;  // opaque depth of the face that is built
-  std::unique_ptr<lists::Lists> lists_;
-  size_t listCells_ = 0;
+  gl::Texture depth_;  // opaque depth of the stack that is built
+  std::optional<lists::Lists> lists_;
   size_t firstUnit_ = 0;  // of the window that is built
   size_t cutMarches_ = 0;
+  lists::ListStatistics listStatistics_;
   size_t firstCell_ = 0;  // of the face, among the cells of linked lists
 };
 
@@ -527,9 +586,23 @@ bool Maps::tryBuild(gl::Device& device, const MapInputs& inputs, size_t texels, 
   const size_t firstUnits = units != 0 ? units + units / 10 + (1 << 12) : guess;
   provide(device, knots_, poolLabel, std::min(firstUnits, mostUnits) * unitBytes, mostUnits * unitBytes);
   Builder builder(device, inputs, plan_.error, texels_, knots_, mostUnits);
-  for (size_t i = 0; i < lightMaps_.size(); ++i)
-    if (!projections_[i].empty() && !builder.build(projections_[i], lightMaps_[i])) return false;
+  std::vector<PlacedFace> placed;
+  std::vector<const FaceProjection*> faces;
+  for (size_t i = 0; i < lightMaps_.size(); ++i) {
+    size_t firstTexel = lightMaps_[i].firstTexel;
+    for (const FaceProjection& face : projections_[i]) {
+      placed.push_back({face, &lightMaps_[i], firstTexel});
+      faces.push_back(&face);
+      firstTexel += allTexelsOf(face);
+    }
+  }
+  for (size_t first = 0; first < faces.size();) {
+    const size_t count = stackedFaces(std::span(faces).subspan(first));
+    if (!builder.build(Stack(placed).subspan(first, count))) return false;
+    first += count;
+  }
   uploadFaces(device);
+  lists_ = builder.lists();
   cutMarches_ = builder.cutMarches();
   return true;
 }
@@ -568,7 +641,7 @@ size_t Maps::knotsAtMost(size_t light) const {
   size_t texelsAround = 0;  // of surfaces, that a texel of smoke is looked up from
   for (const FaceProjection& face : projections_[light])
     if (face.smokeSide > 0) texelsAround = squared(2 * (face.side / face.smokeSide + 1));
-  return knotsInUnit * map.units + texelsAround * map.smokeKnots;
+  return knotsInUnit * (map.knotBytes / unitBytes) + texelsAround * map.smokeKnots;
 }
 
 ReadMap Maps::read(size_t light) const {

@@ -63,9 +63,10 @@ struct LightMap {
   size_t smokeTexels = 0;  // of each face behind its others
   size_t smokeKnots = 0;   // at most
   size_t knotBytes = 0;
-  size_t firstUnit = 0;  // of the pool, whose units are 16 bytes; some are not used
+  size_t firstUnit = 0;  // of the pool, whose units are 16 bytes; some are not used, or of other lights
   size_t units = 0;
-  lists::ListStatistics lists;
+  size_t nodes = 0;   // of the lists that surfaces were sorted in
+  size_t hidden = 0;  // of these, behind the opaque depth
 };
 
 class Maps {
@@ -82,6 +83,7 @@ class Maps {
   Maps(gl::Device& device, const MapInputs& inputs) : Maps(device, inputs, Maps()) {}
 
   const std::vector<LightMap>& lights() const { return lightMaps_; }  // in the order of MapInputs::lights
+  const lists::ListStatistics& lists() const { return lists_; }       // of all lights
   const MapPlan& plan() const { return plan_; }                       // what they were built with
   bool lowered() const { return lowered_; }                           // whether that is coarser than asked
   size_t bytes() const;                                               // of texels and knots
@@ -111,6 +113,7 @@ class Maps {
   size_t budgetBytes_ = 0;
   size_t predictedBytes_ = 0;
   std::vector<LightMap> lightMaps_;
+  lists::ListStatistics lists_;
   std::vector<std::vector<FaceProjection>> projections_;  // of each light
   gl::Records faces_;
   gl::Buffer texels_;

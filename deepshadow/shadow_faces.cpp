@@ -42,6 +42,16 @@ FaceProjection perspectiveFace(const dvec3& forward, const dvec3& origin, double
 
 }  // namespace
 
+size_t stackedFaces(std::span<const FaceProjection* const> faces) {
+  constexpr size_t mostLines = 16384;  // of a texture, everywhere
+  const int side = faces.front()->surfaceSide();
+  const auto lines = static_cast<size_t>(side);
+  const size_t most = std::clamp(windowTexels / (lines * lines), size_t{1}, mostLines / lines);
+  size_t count = 1;
+  while (count < std::min(most, faces.size()) && faces[count]->surfaceSide() == side) ++count;
+  return count;
+}
+
 int faceSide(int resolution) {
   return std::max(32, resolution / 16 * 16);
 }

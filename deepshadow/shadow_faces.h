@@ -36,8 +36,12 @@ int smokeSide(const FaceProjection& face, const glm::dmat4& worldFromUnit, doubl
 // with what filters add: from x, y to z, w. Its smokeSide is known.
 glm::dvec4 smokePart(const FaceProjection& face, std::span<const glm::dmat4> boxes);
 
-// Texels of a face whose lists are built together.
+// Texels whose lists are built together.
 constexpr size_t windowTexels = size_t{1} << 20;
+
+// How many faces, from the first on, make a stack: they are drawn one above the other, and their lists built
+// together. All of one side, and of no more than windowTexels, or one.
+size_t stackedFaces(std::span<const FaceProjection* const> faces);
 
 // Half the angle of the widest cone that one perspective face still takes, radians.
 constexpr double widestCone = 1.0471975511965976;

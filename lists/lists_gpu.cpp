@@ -599,6 +599,16 @@ void Lists::bind(unsigned runs, unsigned keys, unsigned payloads) const {
   if (payloadBytes_ > 0) payloadsView_.bind(payloads);
 }
 
+size_t Lists::nodesOf(const Window& cells) const {
+  const auto run = [&](size_t cell) {
+    ListRun value{};
+    runs_.read(std::as_writable_bytes(std::span(&value, 1)), cell * sizeof(ListRun));
+    return value;
+  };
+  const ListRun last = run(cells.firstCell + cells.cells - 1);
+  return last.first + last.count - run(cells.firstCell).first;
+}
+
 std::vector<ListRun> Lists::readRuns() const {
   return runs_.readValues<ListRun>(builtCells_);
 }

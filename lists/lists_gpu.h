@@ -68,6 +68,9 @@ class Lists {
                               const std::function<void(const Window&)>& consume,
                               size_t mostCells = std::numeric_limits<size_t>::max());
 
+  // Of some cells of the window that was built last, the first one being its first; in consume().
+  size_t nodesOf(const Window& cells) const;
+
   // For comparisons: the linked lists of all cells as spin locks sorted them, and no runs. The pool holds
   // `nodes`; where that is too few, what they are is known after one build, and they are built again. Costs 8
   // bytes a cell and 12 + payloadBytes a node. Returns the nodes. Throws Memory when the device holds fewer.
@@ -84,6 +87,8 @@ class Lists {
 
   const std::string& label() const { return label_; }
   size_t cells() const { return cells_; }  // at most
+  // As many from now on; memory is kept.
+  void setCells(size_t cells) { cells_ = cells; }
   size_t payloadBytes() const { return payloadBytes_; }
 
   // Read back, for checks on the CPU.

@@ -40,6 +40,7 @@ struct ShadowFigures {
 struct FrameStatistics {
   lists::ListStatistics surfaces;             // of the camera
   lists::ListStatistics lights;               // light lists
+  lists::ListStatistics shadowLists;          // of all deep shadow maps
   std::vector<deepshadow::LightMap> shadows;  // a light each, as in the scene
   ShadowFigures shadowMaps;                   // of all of them
   size_t splitPixels = 0;                     // walked sample by sample

@@ -352,6 +352,7 @@ Frame LayeredFrame::finish(const Walk& walk) {
   statistics.tiles = 1;
   if (shadows_) {
     statistics.shadows = shadows_->lights();
+    statistics.shadowLists = shadows_->lists();
     statistics.shadowMaps = figuresOf(*shadows_);
     statistics.cutWalks += shadows_->cutMarches();
   }

@@ -206,6 +206,7 @@ Frame LinkedListsPipeline::render(const scene::Camera& camera, int width, int he
     options.onTile();
   }
   frame.statistics.shadows = shadows_.lights();
+  frame.statistics.shadowLists = shadows_.lists();
   frame.statistics.shadowMaps = figuresOf(shadows_);
   frame.statistics.cutWalks += shadows_.cutMarches();
   frame.statistics.triangles = scene_.geometry().triangles();

@@ -83,19 +83,38 @@ class Predictor {
                  sizeof(shared::PackedSurface));
   }
 
-  // `faces`: of one light.
-  PredictedLists shadows(const std::vector<FaceProjection>& faces, size_t triangles) const {
-    PredictedLists sum;
-    for (const FaceProjection& face : faces) {
-      const size_t texels = face.texels();
-      const FragmentCount count({.viewFromWorld = glm::inverse(face.worldFromFace),
-                                 .halfExtent = face.halfExtent,
-                                 .orthographic = face.orthographic,
-                                 .size = glm::dvec2(face.side)});
-      const double nodes = fragments(casters_, count, triangles, false);
-      sum += lists(texels, nodes, std::min(texels, deepshadow::windowTexels), sizeof(shared::ShadowNode));
+  // Of each light, whose faces are given.
+  std::vector<PredictedLists> shadows(const std::vector<std::vector<FaceProjection>>& facesOfLights,
+                                      size_t triangles) const {
+    std::vector<const FaceProjection*> faces;
+    std::vector<size_t> lightOf;
+    std::vector<PredictedLists> alone;
+    for (size_t light = 0; light < facesOfLights.size(); ++light) {
+      for (const FaceProjection& face : facesOfLights[light]) {
+        const FragmentCount count({.viewFromWorld = glm::inverse(face.worldFromFace),
+                                   .halfExtent = face.halfExtent,
+                                   .orthographic = face.orthographic,
+                                   .size = glm::dvec2(face.side)});
+        faces.push_back(&face);
+        lightOf.push_back(light);
+        alone.push_back({face.texels(), whole(fragments(casters_, count, triangles, false)), 0});
+      }
     }
-    return sum;
+    std::vector<PredictedLists> sums(facesOfLights.size());
+    for (size_t first = 0; first < faces.size();) {
+      const size_t count = deepshadow::stackedFaces(std::span(faces).subspan(first));
+      PredictedLists stack;
+      for (size_t i = first; i < first + count; ++i) stack += alone[i];
+      const size_t bytes = lists(stack.cells, static_cast<double>(stack.nodes),
+                                 std::min(stack.cells, deepshadow::windowTexels), sizeof(shared::ShadowNode))
+                               .bytes;
+      for (size_t i = first; i < first + count; ++i) {
+        alone[i].bytes = bytes;
+        sums[lightOf[i]] += alone[i];
+      }
+      first += count;
+    }
+    return sums;
   }
 
   PredictedLists lights(const scene::Camera& camera, int width, int height) const {
@@ -121,10 +140,11 @@ class Predictor {
     return scene_.materials[static_cast<size_t>(meshOf(instance).material)];
   }
 
+  static size_t whole(double value) { return static_cast<size_t>(std::min(std::round(value), 1e18)); }
+
   // Lists of `cells`, of which `together` are built at one time, their nodes anywhere among them.
   PredictedLists lists(size_t cells, double nodes, size_t together, size_t payloadBytes) const {
     const double share = static_cast<double>(together) / static_cast<double>(cells);
-    const auto whole = [](double value) { return static_cast<size_t>(std::min(std::round(value), 1e18)); };
     return {cells, whole(nodes),
             lists::bytesOfLists(quality_.lists.strategy, together, whole(nodes * share), payloadBytes)};
   }
@@ -216,10 +236,9 @@ ListPrediction predictLists(const scene::Scene& scene, std::span<const volumes::
     views += faces.back().size();
   }
   const size_t triangles = std::clamp(mostTriangles / views, leastOfView, mostOfView);
-  ListPrediction prediction{.surfaces = predictor.surfaces(camera, width, height, triangles),
-                            .lights = predictor.lights(camera, width, height)};
-  for (const auto& ofLight : faces) prediction.shadows.push_back(predictor.shadows(ofLight, triangles));
-  return prediction;
+  return {.surfaces = predictor.surfaces(camera, width, height, triangles),
+          .lights = predictor.lights(camera, width, height),
+          .shadows = predictor.shadows(faces, triangles)};
 }
 
 }  // namespace sfumato::pipelines

@@ -13,14 +13,15 @@ const float SHORT_SHARE = 0.1;  // of the error's bound, what short knots may ta
 // beyond it; `enough` or more where that is as far as anybody wants to know.
 float farthestOpaque(ivec2 texel, float enough) {
   const float REACH = 2.0;  // of the widest filter, in texels of surfaces
-  ivec2 size = textureSize(opaqueDepth, 0);
+  vec2 whole = vec2(textureSize(opaqueDepth, 0));  // of all faces that stand in it
+  ivec2 size = ivec2(whole.x);
   vec2 ratio = vec2(size) / vec2(view.size.xy);
   ivec2 first = max(ivec2((vec2(texel) - 0.5) * ratio - REACH), ivec2(0));
   ivec2 end = min(ivec2((vec2(texel) + 1.5) * ratio + REACH), size - 1);
   float farthest = 0.0;
   for (int y = first.y; y <= end.y && farthest < enough; y += 2) {
     for (int x = first.x; x <= end.x && farthest < enough; x += 2) {
-      vec4 four = textureGather(opaqueDepth, vec2(x + 1, y + 1) / vec2(size));
+      vec4 four = textureGather(opaqueDepth, vec2(x + 1, params.units.z + min(y, size.y - 2) + 1) / whole);
       farthest = max(farthest, max(max(four.x, four.y), max(four.z, four.w)));
     }
   }

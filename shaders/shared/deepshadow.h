@@ -43,7 +43,8 @@ struct ShadowPassParams {
   vec4 march;         // x: step of the march through smoke, voxels; y: bound of the error of the transmittance
   ivec4 cells;  // of the face, that knots are written of: x: the first, y: how many, z, w: place of the first in the
                 // runs and in the texels
-  ivec4 units;  // x: number of the pool's first that is written; y: SHADOW_*: which cells
+  ivec4 units;  // x: number of the pool's first that is written; y: SHADOW_*: which cells; z: the face's first line in the
+                // opaque depth
 };
 
 // Of the pass that draws an interlaced map.

@@ -526,7 +526,7 @@ TEST_F(CommandLineRender, FitsShadowMapsIntoTheirMemoryOrSaysWhatTheyTake) {
   EXPECT_EQ(maps["budget_bytes"], 24 * 1024);
   EXPECT_EQ(maps["bytes"], 6 * 16 * 16 * 12);
   EXPECT_EQ(maps["lowered"], true);
-  EXPECT_EQ(figures["lists"]["shadows"][0]["resolution"], 32);
+  EXPECT_EQ(maps["lights"][0]["resolution"], 32);
   expectError(run(draft({"scene.gltf", "-o", "out.png", "-q", "--shadow-memory", "100K", "--shadow-res",
                          "512", "--shadow-error", "0"})),
               5, "deep shadow maps: take 46 times the 100.0 KiB that they may");
@@ -635,7 +635,7 @@ TEST_F(CommandLineRender, WritesFigures) {
   }
   EXPECT_EQ(figures["lists"]["surfaces"]["cells"], 64 * 48);
   EXPECT_EQ(figures["lists"]["lights"]["cells"], 16 * 12);
-  EXPECT_EQ(figures["lists"]["shadows"].size(), 1u);
+  EXPECT_EQ(figures["shadow_maps"]["lights"].size(), 1u);
   EXPECT_GT(figures["memory"]["peak_bytes"], 64 * 48 * 36);
   EXPECT_GT(figures["memory"]["program_bytes"].size(), 5u);
 }

@@ -264,7 +264,7 @@ TEST_F(MapsGpu, WindowsAndGrowingPoolsGiveTheSameFunctions) {
   for (const float height : {0.1f, 0.2f})
     tests::add(known.scene, tests::quad({-9, height, -9}, {18, 0, 0}, {0, 0, 18}), tests::pane({1, 1, 1}));
   const LightFunction map = build(known, 1536, 1.0 / 512, 0.5);
-  EXPECT_GT(statistics_.lists.windows, 1);
+  EXPECT_GT(lists_.windows, 1);
   // The first pool has a unit of 16 bytes for every fourth texel, and three for every fourth of smoke.
   EXPECT_GT(statistics_.knotBytes, statistics_.texels * 4 + statistics_.smokeTexels * 12);
   EXPECT_LT(worstError(map, known), 1.0 / 512 + 1.0 / 400);  // coarser steps than above
@@ -290,6 +290,72 @@ TEST_F(MapsGpu, SmokeIsNoFinerThanItsVoxels) {
     EXPECT_LT(found.worst, 1.0 / 64) << "mean " << found.mean;
     EXPECT_LT(found.mean, 1.0 / 2048);
   }
+}
+
+// Lights of all kinds whose faces are of one side, and one that is finer, under panes, in smoke.
+TEST_F(MapsGpu, LightsThatAreBuiltTogetherHaveTheMapsThatTheyHaveAlone) {
+  KnownScene known = smokeUnder(tests::directionalLight({0.4, -1, 0.2}, dvec3(1)));
+  known.scene.lights.push_back(tests::spotLight({1, 5, 2}, {0, 1, 0}, dvec3(1), 0.2, 0.5));
+  known.scene.lights.push_back(tests::pointLight({0.5, 3.5, 0.3}, dvec3(1)));
+  known.scene.lights.push_back(tests::directionalLight({-0.3, -1, 0.1}, dvec3(1)));
+  for (const float height : {2.5f, 0.2f})
+    tests::add(known.scene, tests::quad({-2, height, -3}, {3, 0.5f, 0}, {0, 0, 5}),
+               tests::pane({0.9f, 0.5f, height / 4}));
+  tests::add(known.scene, tests::quad({-3, -1, -3}, {6, 0, 0}, {0, 0, 6}), tests::lambert({1, 1, 1}));
+  const std::vector<int> resolutions = {64, 64, 128, 96};
+  const pipelines::GeometryGpu geometry(device(), known.scene);
+  const volumes::VolumesGpu media(device(), known.media);
+  const Casters casters = pipelines::castersOf(geometry);
+  const auto build = [&](const std::vector<Light>& lights, const std::vector<int>& sides,
+                         const lists::ListOptions& options, Maps former = {}) {
+    return Maps(device(),
+                {.lights = lights,
+                 .casters = casters,
+                 .volumes = media,
+                 .receivers = hull,
+                 .castingPoints = hull,
+                 .plan = {sides, 1.0 / 512},
+                 .lists = options},
+                std::move(former));
+  };
+  const auto expectAlike = [&](const Maps& together, size_t number) {
+    const Maps single = build({known.scene.lights[number]}, {resolutions[number]}, {});
+    const ReadMap alone = single.read(0);
+    const ReadMap found = together.read(number);
+    EXPECT_EQ(together.lights()[number].nodes, single.lights()[0].nodes);
+    EXPECT_EQ(together.lights()[number].knotBytes, single.lights()[0].knotBytes);
+    ASSERT_EQ(found.texels.size(), alone.texels.size());
+    double worst = 0;
+    for (size_t i = 0; i < alone.texels.size(); ++i) {
+      ASSERT_EQ(found.texels[i].knots, alone.texels[i].knots) << i;
+      ASSERT_FLOAT_EQ(found.texels[i].opaqueDepth, alone.texels[i].opaqueDepth) << i;
+      for (size_t k = 0; k < alone.texels[i].knots; ++k) {
+        const shared::ShadowKnot a = alone.knotsOf(i)[k], b = found.knotsOf(i)[k];
+        worst = std::max({worst, std::abs(double(a.depth) - b.depth), std::abs(double(a.tauR) - b.tauR),
+                          std::abs(double(a.tauB) - b.tauB)});
+      }
+    }
+    EXPECT_LT(worst, 1e-4);
+  };
+  const Maps maps = build(known.scene.lights, resolutions, {});
+  const Maps inWindows = build(known.scene.lights, resolutions, {.budgetBytes = 70000});
+  EXPECT_EQ(maps.lists().windows, 2);  // the faces of 64 texels a side, the other one
+  EXPECT_GT(inWindows.lists().windows, 8);
+  EXPECT_GT(maps.lists().stored, 1000u);
+  EXPECT_EQ(inWindows.lists().stored, maps.lists().stored);
+  for (size_t i = 0; i < resolutions.size(); ++i) {
+    SCOPED_TRACE(i);
+    expectAlike(maps, i);
+    expectAlike(inWindows, i);
+  }
+  // In the memory of others, larger or smaller.
+  Maps former = build({known.scene.lights[1]}, {256}, {});
+  Maps again = build(known.scene.lights, resolutions, {}, std::move(former));
+  for (size_t i = 0; i < resolutions.size(); ++i) expectAlike(again, i);
+  again = build({known.scene.lights[1]}, {64}, {}, std::move(again));
+  EXPECT_EQ(again.lights().size(), 1u);
+  const ReadMap small = again.read(0);
+  EXPECT_EQ(small.texels.size(), 64u * 64u);
 }
 
 }  // namespace

@@ -54,11 +54,13 @@ class MapsTest : public GpuTest {
                                            .plan = {{resolution}, error},
                                            .stepVoxels = stepVoxels});
     statistics_ = maps.lights().front();
+    lists_ = maps.lists();
     EXPECT_EQ(maps.cutMarches(), 0u);
     return {maps.read(0), scene::facesOf(known.scene.lights.front(), resolution, hull, hull)};
   }
 
   deepshadow::LightMap statistics_;  // of the first light
+  lists::ListStatistics lists_;
 };
 
 }  // namespace sfumato::tests

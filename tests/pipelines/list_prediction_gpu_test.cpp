@@ -23,9 +23,11 @@ class ListPredictionGpu : public tests::GpuTest {
   }
 };
 
+// Of all lights, whose own are those of all lists.
 size_t shadowNodes(const FrameStatistics& statistics) {
   size_t nodes = 0;
-  for (const deepshadow::LightMap& map : statistics.shadows) nodes += map.lists.stored;
+  for (const deepshadow::LightMap& map : statistics.shadows) nodes += map.nodes;
+  EXPECT_EQ(nodes, statistics.shadowLists.stored);
   return nodes;
 }
 
