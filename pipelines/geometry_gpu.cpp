@@ -157,6 +157,7 @@ void GeometryGpu::uploadMaterials(gl::Device& device, const Scene& scene) {
     MaterialTextures& textures = materials_.emplace_back();
     textures.doubleSided = material.doubleSided;
     hasMasks_ = hasMasks_ || material.alphaMode == AlphaMode::Mask;
+    hasShadowRims_ = hasShadowRims_ || material.shadowRim != 0;
     for (const UsedTexture& used : usedTextures(material)) {
       if (used.use.texture < 0) continue;
       const auto [entry, isNew] =
@@ -198,6 +199,7 @@ gl::ShaderDefines GeometryGpu::defines() const {
   gl::ShaderDefines defines;
   if (textures_.size() > 1) defines.emplace_back("TEXTURES", "1");
   if (hasMasks_) defines.emplace_back("MASKS", "1");
+  if (hasShadowRims_) defines.emplace_back("SHADOW_RIMS", "1");
   return defines;
 }
 

@@ -75,6 +75,7 @@ class GeometryGpu {
   bool hasShadowOnce_ = false;
   bool hasNotSelf_ = false;
   bool hasMasks_ = false;
+  bool hasShadowRims_ = false;
 };
 
 }  // namespace sfumato::pipelines
