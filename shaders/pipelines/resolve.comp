@@ -105,7 +105,8 @@ void main() {
       }
       marching = depth < limit && maxComponent(throughput) >= params.march.y && work < uint(RESOLVE_WORK_LIMIT);
     }
-    atSurface = depth >= min(nextSurface, media.rangeOfAll.y);
+    // Lights of a surface are as many loops again, so that they wait for the next dispatch.
+    atSurface = depth >= min(nextSurface, media.rangeOfAll.y) && work < uint(RESOLVE_WORK_LIMIT);
 #endif
 #endif
     if (atSurface) {

@@ -139,20 +139,8 @@ vec3 scatteredFrom(uint number, Steps steps, PixelRay ray, float front, float ba
       }
     }
   }
-  work += uint(7 * STEPS);
+  work += uint(8 * STEPS);
   return sum;
-}
-
-// Whether a light gives any of the steps between its front and back depth any light, shadows aside.
-bool lightsAny(LightData light, Steps steps, PixelRay ray, float front, float back) {
-  float most = 0.0;
-  for (int k = 0; k < STEPS; ++k) {
-    vec3 toLight;
-    bool asks = k < steps.count && steps.depth[k] >= front && steps.depth[k] <= back;
-    vec3 irradiance = lightFrom(light, ray.origin + steps.depth[k] * ray.perDepth, toLight);
-    if (asks) most = max(most, maxComponent(irradiance));
-  }
-  return most > 0.0;
 }
 
 vec3 scattered(Steps steps, PixelRay ray) {
@@ -161,21 +149,15 @@ vec3 scattered(Steps steps, PixelRay ray) {
   uint listed = min(lightsOf(ray), LIGHT_WALK_LIMIT);
   bool reached = true;
   uint walked = 0u;
-  // Lights that give none any light are passed by, and steps close to a lamp put off until the lights around it are done,
-  // because some drivers run what one of several rays needs for all of them.
+  // Steps close to a lamp are put off until the lights around it are done, because some drivers run what few of them need for
+  // all.
   while (reached && walked < listed) {
     Nearby nearby = Nearby(0u, 0u, vec4[3](vec4(0.0), vec4(0.0), vec4(0.0)));
     while (reached && walked < listed && nearby.steps == 0u) {
-      ListedLight at;
-      bool lit = false;
-      while (reached && walked < listed && !lit) {
-        at = lightOf(ray, walked);
-        reached = at.front <= farthest;
-        lit = reached && lightsAny(lightAt(at.light), steps, ray, at.front, at.back);
-        ++walked;
-        work += uint(STEPS);
-      }
-      if (lit) sum += scatteredFrom(at.light, steps, ray, at.front, at.back, nearby);
+      ListedLight at = lightOf(ray, walked);
+      reached = at.front <= farthest;
+      if (reached) sum += scatteredFrom(at.light, steps, ray, at.front, at.back, nearby);
+      ++walked;
     }
     while (nearby.steps != 0u) {
       int k = findLSB(nearby.steps);
