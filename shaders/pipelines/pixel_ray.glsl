@@ -9,7 +9,13 @@ layout(std430, binding = STORAGE_COUNTERS) buffer Counting {
   ResolveCounters counters;
 };
 
-const uint LIGHT_WALK_LIMIT = 6000u;  // keeps one point's lighting below the drivers' loop limit
+const uint LIGHT_WALK_LIMIT = 6000u;
+const uint LOOP_LIMIT = 60000u;  // iterations, beyond which some drivers end loops; those of masked lookups count as well
+
+// Tells the user when so many lights of one point, each with so many iterations, may be more than the driver runs.
+void tellOfManyLights(uint lights, uint iterations) {
+  if (lights == LIGHT_WALK_LIMIT || lights * iterations > LOOP_LIMIT) atomicAdd(counters.boundHit, 1u);
+}
 
 // What a pixel looks along: points are origin + depth * perDepth, in world space.
 struct PixelRay {

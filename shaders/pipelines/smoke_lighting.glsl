@@ -166,6 +166,6 @@ vec3 scattered(Steps steps, PixelRay ray) {
       sum += seenOf(steps, k) * turnedFromNearby(lightAt(nearby.light), steps, k, ray, passing);
     }
   }
-  if (walked == LIGHT_WALK_LIMIT) atomicAdd(counters.boundHit, 1u);
+  tellOfManyLights(walked, 40u);
   return sum;
 }

@@ -37,6 +37,19 @@ TEST_P(LinkedListsGpu, DrawsWhatTheReferenceDraws) {
   EXPECT_EQ(frame.statistics.cutWalks, 0u);
 }
 
+// Drivers end all loops of an invocation after 65,535 iterations, and say nothing.
+TEST_F(LinkedListsGpuFrames, MoreLightsOfAPointThanDriversSurelyLoopOverAreTold) {
+  KnownScene known = tests::paneBeforeSmoke();
+  const scene::Light light = tests::pointLight({1, 1, 1}, glm::dvec3(1e-3));
+  for (const auto& [lights, told] : {std::pair(1000, false), std::pair(2000, true)}) {
+    known.scene.lights.assign(static_cast<size_t>(lights), light);
+    for (scene::Light& each : known.scene.lights) each.castsShadow = false;
+    Quality quality = qualityNamed("draft");
+    quality.samples = 1;
+    EXPECT_EQ(draw(known, quality).statistics.cutWalks > 0, told) << lights;
+  }
+}
+
 TEST_F(LinkedListsGpuFrames, SamplesSmoothEdges) {
   // Against 8 x 8 rays a pixel: four samples leave a fraction of the error of one.
   // Without shadows: their edges are as smooth as the maps' texels.
